@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace edgesplat {
+
+static_assert(std::endian::native == std::endian::little, "x86-64 and aarch64 are little-endian");
+
+/// Reads little-endian fields from bytes that came from outside. A read past the end returns zeros and makes
+/// ok() false for good: parse the whole record, then check ok() once. Single-owner.
+class ByteReader {
+ public:
+  explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  template <typename T>
+  requires std::is_arithmetic_v<T> T read() {
+    T value{};
+    if (sizeof(T) > remaining()) {
+      ok_ = false;
+      position_ = bytes_.size();
+      return value;
+    }
+    std::memcpy(&value, bytes_.data() + position_, sizeof(T));
+    position_ += sizeof(T);
+    return value;
+  }
+  /// The next `count` bytes, or an empty span and ok() == false.
+  std::span<const std::byte> take(std::size_t count) {
+    if (count > remaining()) {
+      ok_ = false;
+      position_ = bytes_.size();
+      return {};
+    }
+    const auto part = bytes_.subspan(position_, count);
+    position_ += count;
+    return part;
+  }
+  void skip(std::size_t count) { (void)take(count); }
+  [[nodiscard]] std::size_t position() const { return position_; }
+  [[nodiscard]] std::size_t remaining() const { return bytes_.size() - position_; }
+  [[nodiscard]] bool ok() const { return ok_; }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t position_ = 0;
+  bool ok_ = true;
+};
+
+/// Appends little-endian fields to a buffer it owns. Single-owner.
+class ByteWriter {
+ public:
+  template <typename T>
+  requires std::is_arithmetic_v<T>
+  void write(T value) {
+    const auto* first = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), first, first + sizeof(T));
+  }
+  void write_bytes(std::span<const std::byte> bytes) {
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+  void write_text(std::string_view text) {
+    write_bytes(std::as_bytes(std::span<const char>(text.data(), text.size())));
+  }
+  /// Overwrites a field written earlier, e.g. a length or a checksum.
+  template <typename T>
+  requires std::is_arithmetic_v<T>
+  void patch(std::size_t position, T value) { std::memcpy(bytes_.data() + position, &value, sizeof(T)); }
+  [[nodiscard]] std::size_t size() const { return bytes_.size(); }
+  [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+  [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace edgesplat

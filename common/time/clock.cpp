@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "common/time/clock.hpp"
+
+namespace edgesplat {
+
+HostTime SteadyClock::now() const {
+  return HostTime(
+      std::chrono::duration_cast<nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()));
+}
+
+void VirtualClock::advance_to(HostTime t) {
+  std::int64_t seen = now_ns_.load();
+  while (seen < to_ns(t) && !now_ns_.compare_exchange_weak(seen, to_ns(t))) {
+  }
+}
+
+}  // namespace edgesplat

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/geometry/rigid_transform.hpp"
+#include "common/time/time.hpp"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace edgesplat::tracking {
+
+enum class TrackingState : std::uint8_t {
+  kInitialising,  ///< gathering IMU samples for gravity; the pose is not valid yet
+  kTracking,
+  kCoasting,  ///< no usable LiDAR in this group: pose from IMU or constant velocity alone
+};
+
+struct DeskewedPoint {
+  Eigen::Vector3f p_in_body_m;  ///< in the body frame at the group's end
+  float reflectivity;
+};
+
+/// How far the pose can be trusted.
+struct TrackingHealth {
+  TrackingState state = TrackingState::kInitialising;
+  int points_used = 0;  ///< residuals in the last iteration
+  int iterations = 0;
+  double residual_rms_m = 0.0;
+  /// Smallest eigenvalue of the translation information over the largest: under 1e-3 a direction is
+  /// unobserved.
+  double translation_conditioning = 0.0;
+};
+
+/// One group with its pose: what tracking produces, keyframes and rendering consume. `odom`: continuous,
+/// gravity aligned (z up), origin at the first pose.
+struct TrackedGroup {
+  HostTime stamp{};  ///< the group's end
+  geometry::RigidTransform odom_from_body;
+  Eigen::Matrix<double, 6, 6> pose_covariance =
+      Eigen::Matrix<double, 6, 6>::Zero();  ///< rotation (rad), translation (m)
+  Eigen::Vector3d velocity_in_odom_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();
+  TrackingHealth health;
+  std::vector<DeskewedPoint> points_in_body;
+};
+
+}  // namespace edgesplat::tracking
