@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+
+#include <functional>
+
+namespace CLI {
+class App;  // CLI11 costs 10 s a file: only main.cpp and the *_verb.cpp files include it
+}
+
+namespace edgesplat::desk {
+
+/// What the command line asked for: the callback of the chosen verb's subcommand stores its work here, main
+/// runs it after parsing. Words go to stderr; with --json a verb prints one JSON line on stdout.
+struct VerbContext {
+  std::function<Status()> work;
+};
+
+// One verb each, in <verb>_verb.cpp: adds its subcommand with options to `app`. The context outlives parsing.
+void add_evaluate_verb(CLI::App& app, VerbContext& context);
+
+}  // namespace edgesplat::desk
