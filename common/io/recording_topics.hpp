@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+/// Topics and attachments of a recording (see ARCHITECTURE.md).
+namespace edgesplat::io {
+
+inline constexpr std::string_view kLidarPointsTopic = "/lidar/points_raw";
+inline constexpr std::string_view kLidarImuTopic = "/lidar/imu_raw";
+inline constexpr std::string_view kCameraMetaTopic = "/camera/meta";
+inline constexpr std::string_view kCameraImageTopic = "/camera/image";
+inline constexpr std::string_view kTruthBodyPoseTopic = "/truth/body_pose";
+inline constexpr std::string_view kTruthCameraCleanTopic = "/truth/camera_clean";
+inline constexpr std::string_view kTruthCameraMaskTopic = "/truth/camera_mask";
+inline constexpr std::string_view kTruthCameraDepthTopic = "/truth/camera_depth";
+
+inline constexpr std::string_view kRigAttachment = "rig.toml";
+inline constexpr std::string_view kWorldAttachment = "world.toml";
+inline constexpr std::string_view kRobotConfigAttachment = "robot.toml";
+
+}  // namespace edgesplat::io
