@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/sensor/measurement.hpp"
+#include "robot/drivers/livox/livox_packet.hpp"
+#include "robot/drivers/livox/stream_monitor.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace edgesplat::livox {
+
+/// Everything the source saw; nothing is lost without being counted here.
+struct LivoxCounters {
+  StreamCounters points;
+  StreamCounters imu;
+  std::uint64_t bad_length = 0;  ///< PacketFault::kLength and kDotCount
+  std::uint64_t bad_version = 0;
+  std::uint64_t bad_type = 0;  ///< unknown type, or a type on the wrong channel
+  std::uint64_t bad_crc = 0;
+  std::uint64_t bad_value = 0;  ///< IMU record that is not finite
+  PointDrops dropped_points;
+  std::uint64_t points_out = 0;  ///< points handed on
+};
+
+/// Datagrams of a Livox sensor (Mid-360, HAP) to measurements. The same for a socket and a recording: whoever
+/// has bytes and their arrival time feeds them here. A damaged packet is counted and never used.
+/// Thread-bound; the only allocation is the vector of points.
+class LivoxSource {
+ public:
+  explicit LivoxSource(PointFilter filter = {}) : filter_(filter) {}
+
+  /// One datagram of the point channel; a LidarPacket unless it was refused.
+  [[nodiscard]] std::optional<sensor::Measurement> on_points(std::span<const std::byte> datagram,
+                                                             HostTime arrival);
+  /// One datagram of the IMU channel; an ImuSample unless it was refused.
+  [[nodiscard]] std::optional<sensor::Measurement> on_imu(std::span<const std::byte> datagram,
+                                                          HostTime arrival);
+  [[nodiscard]] LivoxCounters counters() const;
+
+ private:
+  void count(PacketFault fault);
+
+  PointFilter filter_;
+  StreamMonitor points_;
+  StreamMonitor imu_;
+  LivoxCounters counters_;
+};
+
+}  // namespace edgesplat::livox
