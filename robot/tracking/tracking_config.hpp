@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+
+namespace edgesplat::tracking {
+
+/// Everything tracking can be told; the defaults suit a Mid-360 at walking pace, in- and outdoors. The noise
+/// of the sensors is not here: it is in sensor::Rig.
+struct TrackingConfig {
+  int threads = 1;  ///< threads of the parallel loops; the result does not depend on it, [1, 64]
+
+  double init_s = 0.3;  ///< IMU data gathered for gravity and the gyro bias before the first pose, [0.05, 10]
+  double init_accel_spread_max_mps2 = 0.4;  ///< more spread than this: the start counts as moving, (0, 10]
+  double init_gyro_rate_max_radps =
+      0.05;  ///< a mean rate or spread above: the start counts as moving, (0, 1]
+  double init_moving_speed_sigma_mps =
+      2.0;  ///< 1 sigma of the unknown first speed of a moving start, (0, 50]
+
+  double motion_accel_mps2_per_sqrt_hz =
+      1.0;  ///< least unrest of the motion without IMU, adapted up, (0, 100]
+  double motion_turn_radps2_per_sqrt_hz = 0.5;  ///< the same for rotation, (0, 100]
+
+  double scan_voxel_m = 0.2;   ///< thinning of the points that are matched, [0.01, 5]
+  double map_voxel_m = 0.1;    ///< thinning of the points that enter the map, [0.01, 5]
+  int max_scan_points = 3000;  ///< more matched points than this are thinned evenly, [100, 100000]
+
+  double root_voxel_m = 1.0;         ///< edge of the map's coarsest cells, [0.1, 10]
+  int max_layer = 2;                 ///< how often a cell that is no plane is split in eight, [0, 4]
+  double plane_sigma_max_m = 0.05;   ///< a cell whose points scatter more across is no plane, [0.001, 1]
+  int plane_min_points = 6;          ///< points before a plane is fitted, [5, 32]
+  int plane_freeze_points = 60;      ///< a plane takes no more points after these, [8, 100000]
+  double map_half_extent_m = 100.0;  ///< cells farther than this along an axis are forgotten, [5, 10000]
+  int map_max_mb = 256;              ///< the farthest cells are forgotten above this size, [8, 65536]
+
+  int max_iterations = 6;              ///< of one update, [1, 50]
+  double gate_sigma = 3.0;             ///< residuals beyond this many sigma are left out, [1, 10]
+  double min_residual_sigma_m = 0.01;  ///< model error of every residual: curvature, roughness, [0.0001, 1]
+  int min_residuals = 30;              ///< with fewer the group coasts, [6, 10000]
+  double max_range_m = 120.0;          ///< farther points are left out of matching and map, [1, 1000]
+};
+
+/// kInvalidConfig with the field, its value and its range where one is out of range.
+[[nodiscard]] Status validate(const TrackingConfig& config);
+
+}  // namespace edgesplat::tracking
