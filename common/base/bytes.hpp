@@ -61,8 +61,9 @@ class ByteWriter {
   template <typename T>
   requires std::is_arithmetic_v<T>
   void write(T value) {
-    const auto* first = reinterpret_cast<const std::byte*>(&value);
-    bytes_.insert(bytes_.end(), first, first + sizeof(T));
+    const std::size_t position = bytes_.size();
+    bytes_.resize(position + sizeof(T));  // insert() makes g++ 12 warn of an overflow that cannot be
+    std::memcpy(bytes_.data() + position, &value, sizeof(T));
   }
   void write_bytes(std::span<const std::byte> bytes) {
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
