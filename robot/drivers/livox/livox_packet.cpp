@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/drivers/livox/livox_packet.hpp"
+
+#include "common/base/bytes.hpp"
+#include "robot/drivers/livox/checksum.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace edgesplat::livox {
+namespace {
+
+constexpr double kStandardGravity_mps2 = 9.80665;  // the unit "g" of the IMU records
+constexpr std::size_t kCheckedFrom = 28;           // the checksum covers the stamp and the records
+constexpr std::uint16_t kLaserLines = 4;
+
+std::size_t record_bytes(DataType type) {
+  switch (type) {
+    case DataType::kImu:
+      return 24;
+    case DataType::kCartesianMm:
+      return 14;
+    case DataType::kCartesianCm:
+      return 8;
+    case DataType::kSphericalMm:
+      return 10;
+  }
+  return 0;
+}
+
+sensor::StampSource stamp_source_of(std::uint8_t time_type) {
+  if (time_type == 1) return sensor::StampSource::kPtp;
+  if (time_type == 2) return sensor::StampSource::kGps;
+  return sensor::StampSource::kFreeRunning;
+}
+
+struct RawPoint {
+  Eigen::Vector3f p_m;
+  bool has_return;
+  std::uint8_t reflectivity;
+  std::uint8_t tag;
+};
+
+RawPoint read_cartesian_mm(ByteReader& reader) {
+  const auto x_mm = reader.read<std::int32_t>();
+  const auto y_mm = reader.read<std::int32_t>();
+  const auto z_mm = reader.read<std::int32_t>();
+  const Eigen::Vector3f p_m = (Eigen::Vector3d(x_mm, y_mm, z_mm) * 1e-3)
+                                  .cast<float>();  // exact beyond 16.7 m, where float mm are not
+  const auto reflectivity = reader.read<std::uint8_t>();
+  return {p_m, (x_mm | y_mm | z_mm) != 0, reflectivity, reader.read<std::uint8_t>()};
+}
+
+RawPoint read_cartesian_cm(ByteReader& reader) {
+  const auto x_cm = reader.read<std::int16_t>();
+  const auto y_cm = reader.read<std::int16_t>();
+  const auto z_cm = reader.read<std::int16_t>();
+  const Eigen::Vector3f p_m = (Eigen::Vector3d(x_cm, y_cm, z_cm) * 1e-2).cast<float>();
+  const auto reflectivity = reader.read<std::uint8_t>();
+  return {p_m, (x_cm | y_cm | z_cm) != 0, reflectivity, reader.read<std::uint8_t>()};
+}
+
+RawPoint read_spherical(ByteReader& reader) {
+  constexpr double kRadPerStep = std::numbers::pi / 18000.0;  // 0.01 degrees
+  const auto depth_mm = reader.read<std::uint32_t>();
+  const double zenith_rad = reader.read<std::uint16_t>() * kRadPerStep;
+  const double azimuth_rad = reader.read<std::uint16_t>() * kRadPerStep;
+  const double range_m = depth_mm * 1e-3;
+  const Eigen::Vector3d p_m(range_m * std::sin(zenith_rad) * std::cos(azimuth_rad),
+                            range_m * std::sin(zenith_rad) * std::sin(azimuth_rad),
+                            range_m * std::cos(zenith_rad));
+  const auto reflectivity = reader.read<std::uint8_t>();
+  return {p_m.cast<float>(), depth_mm != 0, reflectivity, reader.read<std::uint8_t>()};
+}
+
+RawPoint read_point(DataType type, ByteReader& reader) {
+  if (type == DataType::kCartesianMm) return read_cartesian_mm(reader);
+  if (type == DataType::kCartesianCm) return read_cartesian_cm(reader);
+  return read_spherical(reader);
+}
+
+/// The worst of the three two-bit confidence fields.
+std::uint8_t worst_confidence(std::uint8_t tag) {
+  const unsigned bits = tag;
+  return static_cast<std::uint8_t>(std::max({bits & 3U, (bits >> 2U) & 3U, (bits >> 4U) & 3U}));
+}
+
+}  // namespace
+
+std::string_view to_string(PacketFault fault) {
+  switch (fault) {
+    case PacketFault::kLength:
+      return "length";
+    case PacketFault::kVersion:
+      return "version";
+    case PacketFault::kType:
+      return "type";
+    case PacketFault::kDotCount:
+      return "dot_count";
+    case PacketFault::kCrc:
+      return "crc";
+  }
+  return "unknown";
+}
+
+tl::expected<DataPacket, PacketFault> decode_packet(std::span<const std::byte> datagram) {
+  if (datagram.size() < kPacketHeaderBytes || datagram.size() > kMaxPacketBytes)
+    return tl::unexpected(PacketFault::kLength);
+  ByteReader reader(datagram);
+  const auto version = reader.read<std::uint8_t>();
+  if (version > 1) return tl::unexpected(PacketFault::kVersion);
+  if (reader.read<std::uint16_t>() != datagram.size()) return tl::unexpected(PacketFault::kLength);
+  DataPacket packet;
+  packet.span = nanoseconds(std::int64_t{reader.read<std::uint16_t>()} * 100);
+  packet.record_count = reader.read<std::uint16_t>();
+  packet.udp_count = reader.read<std::uint16_t>();
+  packet.frame_count = reader.read<std::uint8_t>();
+  const auto type = reader.read<std::uint8_t>();
+  if (type > static_cast<std::uint8_t>(DataType::kSphericalMm)) return tl::unexpected(PacketFault::kType);
+  packet.type = static_cast<DataType>(type);
+  packet.stamp_source = stamp_source_of(reader.read<std::uint8_t>());
+  reader.skip(12);
+  const auto stored_crc = reader.read<std::uint32_t>();
+  const auto stamp_ns = reader.read<std::uint64_t>();
+  packet.records = datagram.subspan(kPacketHeaderBytes);
+  const bool one_if_imu = packet.type != DataType::kImu || packet.record_count == 1;
+  if (!one_if_imu || packet.record_count * record_bytes(packet.type) != packet.records.size())
+    return tl::unexpected(PacketFault::kDotCount);
+  if (crc32(datagram.subspan(kCheckedFrom)) != stored_crc) return tl::unexpected(PacketFault::kCrc);
+  // 62 bits reach to the year 2116; differences of such stamps cannot overflow.
+  packet.stamp = sensor_time_from_ns(static_cast<std::int64_t>(stamp_ns & 0x3FFF'FFFF'FFFF'FFFFU));
+  return packet;
+}
+
+sensor::LidarPacket to_lidar_packet(const DataPacket& packet, HostTime arrival, PointFilter filter,
+                                    PointDrops& drops) {
+  sensor::LidarPacket out;
+  out.stamp = packet.stamp;
+  out.arrival = arrival;
+  out.stamp_source = packet.stamp_source;
+  out.span = packet.span;
+  out.points.reserve(packet.record_count);
+  const std::int64_t gaps = std::max(1, packet.record_count - 1);
+  ByteReader reader(packet.records);
+  for (std::uint16_t i = 0; i < packet.record_count; ++i) {
+    const RawPoint raw = read_point(packet.type, reader);
+    if (!raw.has_return) {
+      ++drops.no_return;
+      continue;
+    }
+    const std::uint8_t confidence = worst_confidence(raw.tag);
+    if (confidence >= filter.drop_confidence_from) {
+      ++drops.low_confidence;
+      continue;
+    }
+    sensor::LidarPoint& point = out.points.emplace_back();
+    point.p_in_lidar_m = raw.p_m;
+    point.reflectivity = static_cast<float>(raw.reflectivity) / 255.0F;
+    point.offset_ns = static_cast<std::int32_t>(packet.span.count() * i / gaps);
+    point.line = static_cast<std::uint8_t>(i % kLaserLines);
+    point.noise_class = confidence == 0 ? std::uint8_t{0} : std::uint8_t{1};
+  }
+  return out;
+}
+
+std::optional<sensor::ImuSample> to_imu_sample(const DataPacket& packet, HostTime arrival) {
+  ByteReader reader(packet.records);
+  std::array<float, 6> values{};
+  for (float& value : values) value = reader.read<float>();
+  if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
+    return std::nullopt;
+  sensor::ImuSample sample;
+  sample.stamp = packet.stamp;
+  sample.arrival = arrival;
+  sample.stamp_source = packet.stamp_source;
+  sample.gyro_radps = {values[0], values[1], values[2]};
+  sample.accel_mps2 = Eigen::Vector3d(values[3], values[4], values[5]) * kStandardGravity_mps2;
+  return sample;
+}
+
+}  // namespace edgesplat::livox
