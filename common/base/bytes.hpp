@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace edgesplat {
@@ -66,7 +67,10 @@ class ByteWriter {
     std::memcpy(bytes_.data() + position, &value, sizeof(T));
   }
   void write_bytes(std::span<const std::byte> bytes) {
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    if (bytes.empty()) return;
+    const std::size_t position = bytes_.size();
+    bytes_.resize(position + bytes.size());
+    std::memcpy(bytes_.data() + position, bytes.data(), bytes.size());
   }
   void write_text(std::string_view text) {
     write_bytes(std::as_bytes(std::span<const char>(text.data(), text.size())));
@@ -78,6 +82,8 @@ class ByteWriter {
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
   [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
+  void clear() { bytes_.clear(); }
+  void reserve(std::size_t size) { bytes_.reserve(size); }
 
  private:
   std::vector<std::byte> bytes_;

@@ -23,8 +23,9 @@ class CdrWriter {
   requires std::is_arithmetic_v<T>
   void write(T value) {
     align(sizeof(T));
-    const auto* first = reinterpret_cast<const std::byte*>(&value);
-    bytes_.insert(bytes_.end(), first, first + sizeof(T));
+    const std::size_t position = bytes_.size();
+    bytes_.resize(position + sizeof(T));
+    std::memcpy(bytes_.data() + position, &value, sizeof(T));
   }
   void write_string(std::string_view text);
   /// sequence<uint8>

@@ -46,7 +46,7 @@ class McapWriter {
                                                   std::string_view message_encoding = "cdr",
                                                   std::map<std::string, std::string> metadata = {});
   /// Log times may go back a little; readers sort. A negative `publish_time` is kept (as two's complement), a
-  /// negative `log_time` or an unknown channel is kInvalidArgument.
+  /// negative `log_time`, an unknown channel or more than 64 MiB is kInvalidArgument.
   [[nodiscard]] Status write(McapChannelId channel, std::uint32_t sequence, HostTime log_time,
                              SensorTime publish_time, std::span<const std::byte> payload);
   [[nodiscard]] Status add_attachment(std::string_view name, std::string_view media_type,
@@ -57,7 +57,7 @@ class McapWriter {
   /// Writes the summary and syncs to the disk; calling it again does nothing.
   [[nodiscard]] Status close();
 
-  [[nodiscard]] const McapStatistics& statistics() const;  ///< of what was accepted
+  [[nodiscard]] const McapStatistics& statistics() const;  ///< of what has reached the file
   [[nodiscard]] std::uint64_t messages_dropped() const;    ///< after a failed write
   [[nodiscard]] std::uint64_t bytes_written() const;       ///< size of the file so far
 
