@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace edgesplat::config {
+
+struct Node;
+/// Entries in the order of the file; keys are unique.
+using Table = std::vector<std::pair<std::string, Node>>;
+
+/// One value of a configuration file with its place: what the rest of common/config sees of TOML.
+struct Node {
+  /// monostate: a TOML date or time, which no field of the project takes.
+  std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<Node>, Table> value;
+  int line = 0;  ///< 1-based; 0 for a value set on the command line
+};
+
+/// The value at `key`, or null.
+[[nodiscard]] const Node* find(const Table& table, std::string_view key);
+/// Puts `from` into `into`: tables are merged, anything else is replaced.
+void merge(Table& into, Table from);
+/// "a table", "a whole number", ...: for messages.
+[[nodiscard]] std::string_view kind_name(const Node& node);
+
+/// Parses TOML 1.0. Errors: kInvalidConfig, "NAME:LINE: ..." with the parser's reason; also for a text over
+/// 1 MiB and for nesting deeper than 256 levels.
+[[nodiscard]] Result<Table> parse_toml(std::string_view text, std::string_view name);
+
+}  // namespace edgesplat::config
