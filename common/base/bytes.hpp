@@ -61,16 +61,10 @@ class ByteWriter {
  public:
   template <typename T>
   requires std::is_arithmetic_v<T>
-  void write(T value) {
-    const std::size_t position = bytes_.size();
-    bytes_.resize(position + sizeof(T));  // insert() makes g++ 12 warn of an overflow that cannot be
-    std::memcpy(bytes_.data() + position, &value, sizeof(T));
-  }
+  void write(T value) { std::memcpy(grow(sizeof(T)), &value, sizeof(T)); }
   void write_bytes(std::span<const std::byte> bytes) {
     if (bytes.empty()) return;
-    const std::size_t position = bytes_.size();
-    bytes_.resize(position + bytes.size());
-    std::memcpy(bytes_.data() + position, bytes.data(), bytes.size());
+    std::memcpy(grow(bytes.size()), bytes.data(), bytes.size());
   }
   void write_text(std::string_view text) {
     write_bytes(std::as_bytes(std::span<const char>(text.data(), text.size())));
@@ -86,6 +80,13 @@ class ByteWriter {
   void reserve(std::size_t size) { bytes_.reserve(size); }
 
  private:
+  /// Room for `count` more bytes. Not inlined: g++ 12 warns of overflows that cannot be where it is.
+  [[gnu::noinline]] std::byte* grow(std::size_t count) {
+    const std::size_t position = bytes_.size();
+    bytes_.resize(position + count);
+    return bytes_.data() + position;
+  }
+
   std::vector<std::byte> bytes_;
 };
 
