@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace edgesplat::link {
+
+/// Which end of the link this is: a robot talks to the server, the server to every robot.
+enum class Role : std::uint8_t { kRobot, kServer };
+
+/// A kind of traffic with its own topic, quality of service and queue; in the order of priority.
+enum class Lane : std::uint8_t {
+  kHeartbeat,  ///< both ways, best effort, only the newest counts
+  kAck,        ///< both ways, cumulative, only the newest counts; made and read by the link itself
+  kDelta,      ///< server to robot, reliable, in order
+  kKeyframe,   ///< robot to server, reliable
+};
+inline constexpr std::size_t kLaneCount = 4;
+inline constexpr std::array<Lane, kLaneCount> kLanes = {Lane::kHeartbeat, Lane::kAck, Lane::kDelta,
+                                                        Lane::kKeyframe};
+[[nodiscard]] std::string_view to_string(Lane lane);
+
+/// True where only the newest message matters: a newer one replaces an older one that waits.
+[[nodiscard]] constexpr bool newest_only(Lane lane) {
+  return lane == Lane::kHeartbeat || lane == Lane::kAck;
+}
+/// True where this end sends on the lane / receives from it.
+[[nodiscard]] constexpr bool sends(Role role, Lane lane) {
+  return newest_only(lane) || (lane == Lane::kKeyframe) == (role == Role::kRobot);
+}
+[[nodiscard]] constexpr bool receives(Role role, Lane lane) {
+  return newest_only(lane) || (lane == Lane::kKeyframe) == (role == Role::kServer);
+}
+
+}  // namespace edgesplat::link
