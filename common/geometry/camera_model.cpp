@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/geometry/camera_model.hpp"
 
+#include <Eigen/LU>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -27,6 +30,17 @@ Distorted distort_radtan(const Eigen::Vector2d& n, const std::array<double, 4>& 
   return out;
 }
 
+/// True where the radius of the picture grows with r2 all the way from the centre. The slope of
+/// r (1 + k1 r2 + k2 r2^2) is 1 + 3 k1 s + 5 k2 s^2 with s = r2; beyond its first root the polynomial has
+/// turned back, even where it grows again further out.
+bool before_radtan_fold(double r2, const std::array<double, 4>& d) {
+  const double a = 5.0 * d[1];
+  const double b = 3.0 * d[0];
+  if (1.0 + r2 * (b + r2 * a) <= 0.0) return false;
+  const bool dips_before = a > 0.0 && b < 0.0 && -b < 2.0 * a * r2 && b * b >= 4.0 * a;
+  return !dips_before;
+}
+
 double fisheye_radius(double theta, const std::array<double, 4>& k) {
   const double t2 = theta * theta;
   return theta * (1.0 + t2 * (k[0] + t2 * (k[1] + t2 * (k[2] + t2 * k[3]))));
@@ -35,6 +49,14 @@ double fisheye_radius(double theta, const std::array<double, 4>& k) {
 double fisheye_slope(double theta, const std::array<double, 4>& k) {
   const double t2 = theta * theta;
   return 1.0 + t2 * (3.0 * k[0] + t2 * (5.0 * k[1] + t2 * (7.0 * k[2] + t2 * 9.0 * k[3])));
+}
+
+/// The same for the fisheye polynomial, looked at in eight steps: lens polynomials have no narrower folds.
+bool before_fisheye_fold(double theta, const std::array<double, 4>& k) {
+  constexpr int kSteps = 8;
+  for (int i = 1; i <= kSteps; ++i)
+    if (fisheye_slope(theta * i / kSteps, k) <= 0.0) return false;
+  return true;
 }
 
 }  // namespace
@@ -56,14 +78,16 @@ std::optional<Eigen::Vector2d> CameraModel::project(const Eigen::Vector3d& p) co
   Eigen::Vector2d xy;
   if (kind == CameraKind::kPinhole) {
     if (p.z() <= 1e-6) return std::nullopt;
-    const Distorted d = distort_radtan(p.head<2>() / p.z(), distortion);
-    if (d.jacobian.determinant() <= 0.0) return std::nullopt;  // beyond the fold of the polynomial
+    const Eigen::Vector2d n = p.head<2>() / p.z();
+    if (!before_radtan_fold(n.squaredNorm(), distortion)) return std::nullopt;
+    const Distorted d = distort_radtan(n, distortion);
+    if (d.jacobian.determinant() <= 0.0) return std::nullopt;  // the tangential terms can fold it, too
     xy = d.xy;
   } else {
     const double r = p.head<2>().norm();
     if (r < 1e-12 && p.z() <= 0.0) return std::nullopt;
     const double theta = std::atan2(r, p.z());
-    if (fisheye_slope(theta, distortion) <= 0.0) return std::nullopt;
+    if (!before_fisheye_fold(theta, distortion)) return std::nullopt;
     const double scale = r < 1e-12 ? 1.0 / p.z() : fisheye_radius(theta, distortion) / r;
     xy = scale * p.head<2>();
   }
