@@ -29,7 +29,9 @@ std::string nearest_spelling(std::string_view word, const std::vector<std::strin
   constexpr std::size_t kLongestWord = 128;  // beyond that it is no slip of the hand
   if (word.size() > kLongestWord) return {};
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+  const std::size_t slips =
+      word.size() < 4 ? 1 : std::max<std::size_t>(2, word.size() / 3);  // a swap counts 2
+  std::size_t best_distance = slips + 1;
   for (const std::string& candidate : candidates) {
     const bool lacks_unit = !word.empty() && candidate.starts_with(std::string(word) + "_");
     const std::size_t distance = lacks_unit ? 1 : edit_distance(word, candidate);
