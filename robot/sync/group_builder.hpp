@@ -41,7 +41,7 @@ struct GroupCounters {
   std::uint64_t overflow_imu = 0;
   std::uint64_t late_images = 0;
   std::uint64_t overflow_images = 0;
-  std::uint64_t unused_images = 0;  ///< no scan near them
+  std::uint64_t unused_images = 0;  ///< no scan near them, or after the last points
   std::uint64_t late_scans = 0;
   std::uint64_t bad_values = 0;     ///< measurements that are not finite or without content
   std::uint64_t clock_changes = 0;  ///< a device's clock jumped or got another source
