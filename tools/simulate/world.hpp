@@ -57,6 +57,14 @@ class World {
   /// sky). `footprint_m`: width of a pixel on the surface, for texture filtering.
   [[nodiscard]] virtual Eigen::Vector3f radiance(const Ray& ray, const std::optional<Hit>& hit,
                                                  double footprint_m, Visibility visibility) const = 0;
+  /// How much of the light that falls on a static surface is left by the movers around it, 0..1; exactly 1
+  /// where none is near: radiance(kEverything) = mover_shade * radiance(kStaticOnly) on static surfaces.
+  [[nodiscard]] virtual float mover_shade(const Ray& /*ray*/, const Hit& /*hit*/) const { return 1.0F; }
+  /// The same world with its movers held still as they are at `time_s`, whatever a ray's time: many times
+  /// faster for a whole picture. Borrows this world. Nothing where holding gains nothing: use the world
+  /// itself.
+  [[nodiscard]] virtual std::unique_ptr<const World> frozen_at(double /*time_s*/) const { return nullptr; }
+
   /// Where the robot's body drives: corner points of a smooth path, z of the body included, and its speed.
   struct Path {
     std::vector<Eigen::Vector3d> waypoints_m;
