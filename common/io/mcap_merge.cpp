@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "common/io/mcap_merge.hpp"
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace edgesplat::io::mcap {
+namespace {
+
+constexpr std::size_t kOpenBytesBudget = std::size_t{64} << 20U;
+
+}  // namespace
+
+MessageMerge::MessageMerge(const ByteSource& source, const Index& index, McapSelection selection)
+    : source_(source), index_(index), selection_(std::move(selection)), report_(index.report) {
+  for (const auto& [id, channel] : index.channels) {
+    const bool wanted = selection_.topics.empty() ||
+                        std::ranges::find(selection_.topics, channel.topic) != selection_.topics.end();
+    if (wanted) channels_.insert(id);
+  }
+  for (const auto& place : index.chunks) {
+    if (is_selected(place)) pending_.push_back(&place);
+  }
+  std::ranges::sort(pending_, {},
+                    [](const ChunkPlace* place) { return std::tuple(place->first_log_time, place->offset); });
+}
+
+bool MessageMerge::is_selected(const ChunkPlace& place) const {
+  if (place.last_log_time < selection_.from || place.first_log_time >= selection_.until) return false;
+  if (place.channels.empty()) return true;
+  return std::ranges::any_of(place.channels, [this](McapChannelId id) {
+    // Messages of a channel that was never defined are looked at, so that they are counted as lost.
+    return channels_.contains(id) || !index_.channels.contains(id);
+  });
+}
+
+bool MessageMerge::is_later(const std::unique_ptr<OpenChunk>& a, const std::unique_ptr<OpenChunk>& b) {
+  const auto key = [](const OpenChunk& chunk) {
+    return std::tuple(chunk.messages[chunk.next].log_time_ns, chunk.place->offset);
+  };
+  return key(*a) > key(*b);
+}
+
+void MessageMerge::skip_chunk(const ChunkPlace& place, const Error& error) {
+  ++report_.chunks_skipped;
+  report_.bytes_skipped += place.length;
+  add_problem(report_, error.context + " (byte " + std::to_string(place.offset) + ")");
+}
+
+void MessageMerge::keep_selected(std::vector<MessagePlace>& messages) {
+  std::uint64_t without_channel = 0;
+  std::erase_if(messages, [&](const MessagePlace& message) {
+    if (!index_.channels.contains(message.channel)) ++without_channel;
+    const auto time = host_time_from_ns(message.log_time_ns);
+    return !channels_.contains(message.channel) || time < selection_.from || time >= selection_.until;
+  });
+  if (without_channel > 0) {
+    add_problem(report_, std::to_string(without_channel) + " messages belong to no known channel");
+  }
+  std::ranges::stable_sort(messages, {}, &MessagePlace::log_time_ns);
+}
+
+Status MessageMerge::open_chunk(const ChunkPlace& place) {
+  auto chunk = std::make_unique<OpenChunk>();
+  chunk->place = &place;
+  EDGESPLAT_TRY(chunk->records, load_records(source_, place));
+  EDGESPLAT_TRY(auto contents, list_records(chunk->records));
+  chunk->messages = std::move(contents.messages);
+  for (const auto& message : chunk->messages) {
+    const auto time = host_time_from_ns(message.log_time_ns);
+    if (time < place.first_log_time || time > place.last_log_time) {
+      return fail(Errc::kCorrupt, "a chunk holds other times than its index says");
+    }
+  }
+  keep_selected(chunk->messages);
+  if (chunk->messages.empty()) return {};
+  chunk->records_bytes = chunk->records.size();
+  open_bytes_ += chunk->records_bytes;
+  open_.push_back(std::move(chunk));
+  std::ranges::push_heap(open_, is_later);
+  return {};
+}
+
+void MessageMerge::open_due_chunks() {
+  while (next_pending_ < pending_.size()) {
+    const ChunkPlace& place = *pending_[next_pending_];
+    if (!open_.empty()) {
+      const auto& front = *open_.front();
+      if (to_ns(place.first_log_time) > front.messages[front.next].log_time_ns) return;
+    }
+    ++next_pending_;
+    if (auto opened = open_chunk(place); !opened) skip_chunk(place, opened.error());
+    give_back_memory();
+  }
+}
+
+void MessageMerge::give_back_memory() {
+  while (open_bytes_ > kOpenBytesBudget) {
+    OpenChunk* furthest = nullptr;
+    std::size_t loaded = 0;
+    for (const auto& chunk : open_) {
+      if (chunk->records.empty()) continue;
+      ++loaded;
+      if (furthest == nullptr ||
+          chunk->messages[chunk->next].log_time_ns >= furthest->messages[furthest->next].log_time_ns) {
+        furthest = chunk.get();
+      }
+    }
+    if (loaded <= 1) return;
+    open_bytes_ -= furthest->records.size();
+    furthest->records = {};
+  }
+}
+
+void MessageMerge::put_back_current() {
+  if (!current_) return;
+  if (current_->next < current_->messages.size()) {
+    open_.push_back(std::move(current_));
+    std::ranges::push_heap(open_, is_later);
+  } else {
+    open_bytes_ -= current_->records.size();
+  }
+  current_.reset();
+}
+
+std::optional<McapMessage> MessageMerge::next() {
+  put_back_current();
+  while (true) {
+    open_due_chunks();
+    if (open_.empty()) return std::nullopt;
+    std::ranges::pop_heap(open_, is_later);
+    current_ = std::move(open_.back());
+    open_.pop_back();
+    if (!current_->records.empty()) break;
+    auto records = load_records(source_, *current_->place);
+    if (records && records->size() != current_->records_bytes) {
+      records = fail(Errc::kIo, "the file changed while it was read");
+    }
+    if (records) {
+      current_->records = std::move(*records);
+      open_bytes_ += current_->records.size();
+      give_back_memory();
+      break;
+    }
+    skip_chunk(*current_->place, records.error());
+    current_.reset();
+  }
+  const MessagePlace& place = current_->messages[current_->next++];
+  const auto content =
+      std::span<const std::byte>(current_->records).subspan(place.offset, place.content_bytes);
+  const auto header = read_message_header(content);
+  McapMessage message;
+  message.channel = &index_.channels.find(place.channel)->second;
+  message.sequence = header->sequence;
+  message.log_time = host_time_from_ns(place.log_time_ns);
+  message.publish_time = sensor_time_from_ns(static_cast<std::int64_t>(header->publish_time_ns));
+  message.payload = content.subspan(kMessageHeaderBytes);
+  ++report_.messages_read;
+  return message;
+}
+
+}  // namespace edgesplat::io::mcap

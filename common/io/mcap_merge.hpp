@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/io/mcap_chunk_reader.hpp"
+#include "common/io/mcap_reader.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace edgesplat::io::mcap {
+
+/// Walks the messages of an index in log-time order. Chunks are opened when their first message is due, and
+/// while more than a budget is open, those whose next message is furthest away give their bytes back.
+/// Single-owner; borrows source and index.
+class MessageMerge {
+ public:
+  MessageMerge(const ByteSource& source, const Index& index, McapSelection selection);
+
+  [[nodiscard]] std::optional<McapMessage> next();
+  [[nodiscard]] const McapReadReport& report() const { return report_; }
+
+ private:
+  struct OpenChunk {
+    const ChunkPlace* place = nullptr;
+    std::vector<std::byte> records;  ///< empty = given back, loaded again when due
+    std::size_t records_bytes = 0;
+    std::vector<MessagePlace> messages;  ///< selected ones, by time
+    std::size_t next = 0;
+  };
+  static bool is_later(const std::unique_ptr<OpenChunk>& a, const std::unique_ptr<OpenChunk>& b);
+  [[nodiscard]] bool is_selected(const ChunkPlace& place) const;
+  void open_due_chunks();
+  [[nodiscard]] Status open_chunk(const ChunkPlace& place);
+  void keep_selected(std::vector<MessagePlace>& messages);
+  void give_back_memory();
+  void put_back_current();
+  void skip_chunk(const ChunkPlace& place, const Error& error);
+
+  const ByteSource& source_;
+  const Index& index_;
+  McapSelection selection_;
+  std::set<McapChannelId> channels_;        ///< selected
+  std::vector<const ChunkPlace*> pending_;  ///< by first log time
+  std::size_t next_pending_ = 0;
+  std::vector<std::unique_ptr<OpenChunk>> open_;  ///< heap: the chunk with the earliest message in front
+  std::unique_ptr<OpenChunk> current_;            ///< lent its bytes to the caller
+  std::size_t open_bytes_ = 0;
+  McapReadReport report_;
+};
+
+}  // namespace edgesplat::io::mcap
