@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/drivers/replay/mcap_recording.hpp"
+
+#include "common/io/image_file.hpp"
+#include "common/io/mcap_reader.hpp"
+#include "common/io/recording_topics.hpp"
+#include "common/io/ros_messages.hpp"
+#include "common/sensor/rig_config.hpp"
+#include "robot/drivers/livox/livox_source.hpp"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace edgesplat::replay {
+namespace {
+
+constexpr std::array kTopics{io::kLidarPointsTopic, io::kLidarImuTopic, io::kCameraMetaTopic,
+                             io::kCameraImageTopic};
+constexpr std::int64_t kLatest_ns = std::int64_t{1} << 62U;  // sums and differences of times stay in range
+
+class McapRecording final : public ReplaySource::Reader {
+ public:
+  McapRecording(io::McapReader reader, sensor::Rig rig) : reader_(std::move(reader)), rig_(std::move(rig)) {}
+
+  [[nodiscard]] const sensor::Rig& rig() const override { return rig_; }
+  [[nodiscard]] nanoseconds duration() const override {
+    return reader_.statistics().last_log_time - reader_.statistics().first_log_time;
+  }
+  [[nodiscard]] HostTime begin() const override { return reader_.statistics().first_log_time; }
+  [[nodiscard]] ReplayReport report() const override;
+  [[nodiscard]] Result<std::optional<sensor::Measurement>> next() override;
+
+ private:
+  [[nodiscard]] std::optional<sensor::Measurement> convert(const io::McapMessage& message);
+  [[nodiscard]] std::optional<sensor::Measurement> convert_datagram(const io::McapMessage& message);
+  void keep_meta(const io::McapMessage& message);
+  [[nodiscard]] std::optional<sensor::Measurement> convert_image(const io::McapMessage& message);
+  std::optional<sensor::Measurement> refuse_frame(std::string why);
+
+  io::McapReader reader_;
+  sensor::Rig rig_;
+  livox::LivoxSource livox_;
+  std::optional<io::FrameMeta> meta_;  ///< of the picture that comes next
+  std::uint64_t measurements_ = 0;
+  std::uint64_t bad_messages_ = 0;
+  std::uint64_t frames_refused_ = 0;
+  std::string first_refusal_;
+};
+
+Result<std::optional<sensor::Measurement>> McapRecording::next() {
+  while (const auto message = reader_.next()) {
+    const bool sane = to_ns(message->log_time) >= 0 && to_ns(message->log_time) < kLatest_ns &&
+                      to_ns(message->publish_time) > -kLatest_ns && to_ns(message->publish_time) < kLatest_ns;
+    auto measurement = sane ? convert(*message) : std::nullopt;
+    if (!sane) ++bad_messages_;
+    if (!measurement) continue;
+    ++measurements_;
+    return measurement;
+  }
+  return std::nullopt;
+}
+
+std::optional<sensor::Measurement> McapRecording::convert(const io::McapMessage& message) {
+  const std::string_view topic = message.channel->topic;
+  if (topic == io::kCameraImageTopic) return convert_image(message);
+  if (topic != io::kCameraMetaTopic) return convert_datagram(message);
+  keep_meta(message);
+  return std::nullopt;
+}
+
+std::optional<sensor::Measurement> McapRecording::convert_datagram(const io::McapMessage& message) {
+  const auto raw = io::decode_raw_datagram(message.payload);
+  if (!raw) {
+    ++bad_messages_;
+    return std::nullopt;
+  }
+  return message.channel->topic == io::kLidarImuTopic ? livox_.on_imu(raw->datagram, message.log_time)
+                                                      : livox_.on_points(raw->datagram, message.log_time);
+}
+
+void McapRecording::keep_meta(const io::McapMessage& message) {
+  const auto meta = io::decode_frame_meta(message.payload);
+  meta_.reset();
+  if (!meta) {
+    ++bad_messages_;
+    return;
+  }
+  meta_ = *meta;
+  meta_->stamp = message.publish_time;  // the message itself holds 32-bit seconds
+}
+
+std::optional<sensor::Measurement> McapRecording::convert_image(const io::McapMessage& message) {
+  const auto meta = std::exchange(meta_, std::nullopt);
+  if (!meta || meta->stamp != message.publish_time) return refuse_frame("a picture has no meta message");
+  const auto compressed = io::decode_compressed_image(message.payload);
+  if (!compressed) return refuse_frame(compressed.error().context);
+  auto image = io::decode_rgb8(compressed->encoded);
+  if (!image) return refuse_frame(image.error().context);
+  if (rig_.camera &&
+      (image->width_px != rig_.camera->model.width_px || image->height_px != rig_.camera->model.height_px))
+    return refuse_frame("a picture is " + std::to_string(image->width_px) + "x" +
+                        std::to_string(image->height_px) + " pixels, the camera in rig.toml " +
+                        std::to_string(rig_.camera->model.width_px) + "x" +
+                        std::to_string(rig_.camera->model.height_px));
+  sensor::CameraFrame frame;
+  frame.stamp = meta->stamp;
+  frame.arrival = message.log_time;
+  frame.stamp_source = meta->stamp_source;
+  frame.sequence = meta->sequence;
+  frame.exposure_s = meta->exposure_s;
+  frame.gain_db = meta->gain_db;
+  frame.image = std::make_shared<const sensor::ImageRgb8>(*std::move(image));
+  return frame;
+}
+
+std::optional<sensor::Measurement> McapRecording::refuse_frame(std::string why) {
+  ++frames_refused_;
+  if (first_refusal_.empty()) first_refusal_ = std::move(why);
+  return std::nullopt;
+}
+
+ReplayReport McapRecording::report() const {
+  const io::McapReadReport& file = reader_.report();
+  const livox::LivoxCounters lidar = livox_.counters();
+  ReplayReport report;
+  report.measurements = measurements_;
+  report.bytes_skipped = file.bytes_skipped;
+  report.packets_refused = bad_messages_ + lidar.bad_length + lidar.bad_version + lidar.bad_type +
+                           lidar.bad_crc + lidar.bad_value + lidar.points.duplicate + lidar.points.bad_stamp +
+                           lidar.imu.duplicate + lidar.imu.bad_stamp;
+  report.frames_refused = frames_refused_;
+  report.points_dropped = lidar.dropped_points.no_return + lidar.dropped_points.low_confidence;
+  report.why = file.why;
+  const auto add = [&report](const std::string& why) {
+    report.why += (report.why.empty() ? "" : "; ") + why;
+  };
+  if (report.packets_refused > 0) add(std::to_string(report.packets_refused) + " packets refused");
+  if (frames_refused_ > 0) add(std::to_string(frames_refused_) + " pictures refused: " + first_refusal_);
+  report.complete = report.why.empty();
+  return report;
+}
+
+std::string list_topics(const io::McapReader& reader) {
+  std::string text;
+  for (const auto& [id, channel] : reader.channels()) text += (text.empty() ? "" : ", ") + channel.topic;
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ReplaySource::Reader>> open_mcap_recording(const std::filesystem::path& path) {
+  EDGESPLAT_TRY(io::McapReader reader, io::McapReader::open(path));
+  if (reader.find_channel(io::kLidarPointsTopic) == nullptr &&
+      reader.find_channel(io::kCameraImageTopic) == nullptr)
+    return fail(Errc::kInvalidArgument, path.string() + " is no recording of a robot: expected the topics " +
+                                            std::string(io::kLidarPointsTopic) + " or " +
+                                            std::string(io::kCameraImageTopic) + ", found " +
+                                            list_topics(reader));
+  const auto attachment = reader.attachment(io::kRigAttachment);
+  if (!attachment)
+    return fail(Errc::kInvalidArgument, path.string() +
+                                            " has no readable attachment rig.toml, which says what the "
+                                            "robot's sensors are (" +
+                                            attachment.error().context +
+                                            "); a recording of edgesplat-robot --record holds it");
+  const std::string_view text(reinterpret_cast<const char*>(attachment->content.data()),
+                              attachment->content.size());
+  EDGESPLAT_TRY(sensor::Rig rig, sensor::parse_rig(text, path.string() + ":rig.toml"));
+  io::McapSelection selection;
+  for (const std::string_view topic : kTopics) selection.topics.emplace_back(topic);
+  reader.select(std::move(selection));
+  return std::unique_ptr<ReplaySource::Reader>(
+      std::make_unique<McapRecording>(std::move(reader), std::move(rig)));
+}
+
+}  // namespace edgesplat::replay
