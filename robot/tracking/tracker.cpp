@@ -2,32 +2,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/tracking/tracker.hpp"
 
+#include "robot/tracking/tracker_impl.hpp"
+
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace edgesplat::tracking {
-
-struct Tracker::Impl {
-  TrackingConfig config;
-  sensor::Rig rig;
-  TrackingCounters counters;
-};
 
 Tracker::Tracker(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Tracker::~Tracker() = default;
 
 Result<std::unique_ptr<Tracker>> Tracker::create(const TrackingConfig& config, const sensor::Rig& rig) {
   EDGESPLAT_TRY_STATUS(validate(config));
-  return std::unique_ptr<Tracker>(new Tracker(std::make_unique<Impl>(Impl{config, rig, {}})));
+  if (!rig.body_from_lidar.is_finite() || !(rig.lidar.range_sigma_m > 0.0) ||
+      !(rig.lidar.bearing_sigma_rad > 0.0)) {
+    return fail(Errc::kInvalidConfig,
+                fmt::format("the LiDAR of rig \"{}\" has no usable noise or place: range_sigma_m and "
+                            "bearing_sigma_rad must be positive, body_from_lidar finite",
+                            rig.name));
+  }
+  return std::unique_ptr<Tracker>(new Tracker(std::make_unique<Impl>(config, rig)));
 }
 
 Result<TrackedGroup> Tracker::track(const sync::MeasureGroup& group) {
-  TrackedGroup tracked;
-  tracked.stamp = group.end;
-  return tracked;
+  return impl_->track(group);
 }
 
 TrackingCounters Tracker::counters() const {
-  return impl_->counters;
+  TrackingCounters counters = impl_->counters;
+  counters.evicted_cells = impl_->map.evicted_roots();
+  counters.map_bytes = static_cast<std::int64_t>(impl_->map.bytes());
+  return counters;
 }
 
 }  // namespace edgesplat::tracking

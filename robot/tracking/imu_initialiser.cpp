@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/tracking/imu_initialiser.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace edgesplat::tracking {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kStandardGravity_mps2 = 9.81;
+/// A MEMS accelerometer's bias over the years: what levelling at rest cannot see.
+constexpr double kAccelBiasSigma_mps2 = 0.1;
+constexpr double kGravitySigma_mps2 = 0.02;
+
+template <typename Field>
+ImuInitialiser::Spread spread_of(const std::vector<sync::GroupImu>& samples, Field field) {
+  ImuInitialiser::Spread spread;
+  const auto n = static_cast<double>(samples.size());
+  for (const auto& sample : samples) spread.mean += field(sample) / n;
+  double squares = 0.0;
+  for (const auto& sample : samples) squares += (field(sample) - spread.mean).squaredNorm() / n;
+  spread.deviation = std::sqrt(squares);
+  return spread;
+}
+
+}  // namespace
+
+std::optional<InitialBelief> ImuInitialiser::add(const std::vector<sync::GroupImu>& imu) {
+  for (const auto& sample : imu) {
+    if (samples_.empty() || sample.stamp > samples_.back().stamp) samples_.push_back(sample);
+  }
+  if (samples_.size() < 3 || to_seconds(samples_.back().stamp - samples_.front().stamp) < config_.init_s)
+    return {};
+  return solve();
+}
+
+InitialBelief ImuInitialiser::solve() const {
+  const Spread accel = spread_of(samples_, [](const sync::GroupImu& s) -> Vector3d { return s.accel_mps2; });
+  const Spread gyro = spread_of(samples_, [](const sync::GroupImu& s) -> Vector3d { return s.gyro_radps; });
+  InitialBelief initial;
+  initial.stationary = accel.deviation < config_.init_accel_spread_max_mps2 &&
+                       gyro.mean.norm() < config_.init_gyro_rate_max_radps &&
+                       gyro.deviation < config_.init_gyro_rate_max_radps &&
+                       std::abs(accel.mean.norm() - kStandardGravity_mps2) < 0.5;
+  FilterState& state = initial.belief.state;
+  state.odom_from_body.rotation = Eigen::Quaterniond::FromTwoVectors(accel.mean, Vector3d::UnitZ());
+  state.gravity_in_odom_mps2 = Vector3d(0.0, 0.0, -kStandardGravity_mps2);
+  if (initial.stationary) state.gyro_bias_radps = gyro.mean;
+
+  initial.belief.covariance = initial_covariance(initial, accel, gyro);
+  return initial;
+}
+
+// Odom is defined by the first pose: its rotation and position are exact, gravity's direction carries the
+// doubt. At rest the mean force is bias - R'g: whatever the bias is wrong by, gravity is wrong by the same,
+// turned by R.
+ErrorMatrix ImuInitialiser::initial_covariance(const InitialBelief& initial, const Spread& accel,
+                                               const Spread& gyro) const {
+  const auto samples = static_cast<double>(samples_.size());
+  ErrorMatrix p = ErrorMatrix::Zero();
+  const auto set = [&](int index, double sigma) {
+    p.diagonal().segment<3>(index).setConstant(sigma * sigma);
+  };
+  set(kRot, 1e-4);
+  set(kPos, 1e-4);
+  set(kAccelBias, kAccelBiasSigma_mps2);
+  if (!initial.stationary) {
+    set(kVel, config_.init_moving_speed_sigma_mps);
+    set(kGyroBias, config_.init_gyro_rate_max_radps);
+    set(kGravity, std::max(0.5, accel.deviation));
+    return p;
+  }
+  set(kVel, 0.02);
+  set(kGyroBias, 1e-4 + gyro.deviation / std::sqrt(samples));
+  const Eigen::Matrix3d rotation = initial.belief.state.odom_from_body.rotation.toRotationMatrix();
+  const double bias_variance = kAccelBiasSigma_mps2 * kAccelBiasSigma_mps2;
+  set(kGravity, std::hypot(kAccelBiasSigma_mps2, 0.005 + accel.deviation / std::sqrt(samples)));
+  p.block<3, 3>(kGravity, kAccelBias) = bias_variance * rotation;
+  p.block<3, 3>(kAccelBias, kGravity) = bias_variance * rotation.transpose();
+  // Gravity's length is known (latitude and height change it by 0.3 %): a measurement of its z.
+  constexpr int kDown = kGravity + 2;
+  const ErrorVector column = p.col(kDown);
+  p -= column * column.transpose() / (column(kDown) + kGravitySigma_mps2 * kGravitySigma_mps2);
+  return p;
+}
+
+}  // namespace edgesplat::tracking

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "robot/sync/measure_group.hpp"
+#include "robot/tracking/filter_state.hpp"
+#include "robot/tracking/tracking_config.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace edgesplat::tracking {
+
+/// The first belief, and what it rests on.
+struct InitialBelief {
+  FilterBelief belief;
+  bool stationary = false;
+};
+
+/// Finds gravity and the gyro bias from the first IMU samples. A start at rest gives the bias and a level to
+/// the accelerometer's bias; otherwise the mean force still gives the level, roughly, and the covariance says
+/// so.
+class ImuInitialiser {
+ public:
+  /// Mean of a signal over the samples, and the root of its axes' summed variances.
+  struct Spread {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    double deviation = 0.0;
+  };
+
+  explicit ImuInitialiser(const TrackingConfig& config) : config_(config) {}
+
+  /// Takes a group's samples; the belief once `init_s` of them were seen. Samples repeated between groups
+  /// count once.
+  std::optional<InitialBelief> add(const std::vector<sync::GroupImu>& imu);
+
+ private:
+  [[nodiscard]] InitialBelief solve() const;
+  [[nodiscard]] ErrorMatrix initial_covariance(const InitialBelief& initial, const Spread& accel,
+                                               const Spread& gyro) const;
+
+  TrackingConfig config_;
+  std::vector<sync::GroupImu> samples_;
+};
+
+}  // namespace edgesplat::tracking

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "robot/tracking/block_loop.hpp"
+#include "robot/tracking/filter_state.hpp"
+#include "robot/tracking/plane_map.hpp"
+#include "robot/tracking/point_noise.hpp"
+
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+namespace edgesplat::tracking {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+struct ScanUpdateConfig {
+  int max_iterations = 6;
+  float gate_sigma = 3.0F;
+  float min_residual_sigma_m = 0.01F;
+  int min_residuals = 30;
+};
+
+/// The points to be matched, and how noisy they are.
+struct ScanView {
+  std::span<const Eigen::Vector3f> points_in_body_m;
+  Eigen::Vector3f lidar_in_body_m = Eigen::Vector3f::Zero();
+  const PointNoise* noise = nullptr;
+};
+
+/// Normal equations of the point-to-plane residuals at one pose, on (rotation, position).
+struct PlaneResiduals {
+  Matrix6d information = Matrix6d::Zero();  ///< sum of H' w H
+  Vector6d gradient = Vector6d::Zero();     ///< sum of H' w r
+  int used = 0;                             ///< residuals within the gate
+  int matched = 0;                          ///< points with a plane, within the gate or not
+  double squares_m2 = 0.0;                  ///< sum of r^2 of the used ones
+};
+
+struct ScanUpdateResult {
+  FilterBelief belief;  ///< the posterior; the prior where `updated` is false
+  bool updated = false;
+  int iterations = 0;
+  PlaneResiduals last;
+  double translation_conditioning = 0.0;
+};
+
+/// One residual and its row: r = n'(R p + t - q), dr/d(rot, pos) = [(p x R'n)', n'].
+struct PointToPlane {
+  double residual_m;
+  Vector6d row;
+};
+[[nodiscard]] PointToPlane point_to_plane(const geometry::RigidTransform& odom_from_body,
+                                          const Eigen::Vector3d& p_in_body_m, const Eigen::Vector3d& normal,
+                                          const Eigen::Vector3d& centre_in_odom_m);
+
+/// Smallest over largest eigenvalue of the translation's information with the rotation eliminated (Schur
+/// complement): 0 where a direction is not seen.
+[[nodiscard]] double translation_conditioning(const Matrix6d& information);
+
+/// The iterated update of the error-state filter (FAST-LIO2, eq. 17-20) with the residuals of one scan. Keeps
+/// its buffers; thread-bound.
+class ScanUpdater {
+ public:
+  ScanUpdater(const ScanUpdateConfig& config, BlockLoop& loop) : config_(config), loop_(loop) {}
+
+  /// Begins iterating at `start` (the prior's state, or a better guess of it).
+  ScanUpdateResult run(const FilterBelief& prior, const FilterState& start, const ScanView& scan,
+                       const PlaneMap& map);
+  /// Residuals at one pose; `pose_covariance` widens the gate by what the pose may be off.
+  PlaneResiduals evaluate(const geometry::RigidTransform& odom_from_body, const Matrix6d& pose_covariance,
+                          const ScanView& scan, const PlaneMap& map);
+
+ private:
+  ScanUpdateConfig config_;
+  BlockLoop& loop_;
+  std::vector<PlaneResiduals> partial_;
+};
+
+}  // namespace edgesplat::tracking

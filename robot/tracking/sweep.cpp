@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/tracking/sweep.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace edgesplat::tracking {
+namespace {
+
+constexpr std::size_t kBlockSize = 4096;
+
+std::int32_t clamp_ns(nanoseconds before_end) {
+  return static_cast<std::int32_t>(
+      std::clamp<std::int64_t>(before_end.count(), 0, std::numeric_limits<std::int32_t>::max()));
+}
+
+}  // namespace
+
+Sweep::Sweep(const sensor::Rig& rig, double max_range_m, BlockLoop& loop)
+    : body_from_lidar_(rig.body_from_lidar),
+      min_range_m_(static_cast<float>(rig.lidar.min_range_m)),
+      max_range_m_(static_cast<float>(std::min(max_range_m, rig.lidar.max_range_m))),
+      loop_(loop) {}
+
+void Sweep::load(const sync::MeasureGroup& group, TrackingCounters& counters) {
+  has_point_times_ = group.has_point_times;
+  points_in_lidar_m_.clear();
+  before_end_ns_.clear();
+  reflectivity_.clear();
+  for (const sync::GroupPoint& point : group.points) {
+    const float range_squared = point.p_in_lidar_m.squaredNorm();
+    if (!point.p_in_lidar_m.allFinite()) {
+      ++counters.bad_points;
+    } else if (range_squared < min_range_m_ * min_range_m_ || range_squared > max_range_m_ * max_range_m_) {
+      ++counters.out_of_range_points;
+    } else {
+      points_in_lidar_m_.push_back(point.p_in_lidar_m);
+      before_end_ns_.push_back(has_point_times_ ? std::max(point.before_end_ns, 0) : 0);
+      reflectivity_.push_back(point.reflectivity);
+    }
+  }
+}
+
+void Sweep::deskew(std::span<const PathKnot> path) {
+  std::vector<pointcloud::MotionKnot> knots;
+  const geometry::RigidTransform end_from_odom = path.back().odom_from_body.inverse();
+  for (const PathKnot& knot : path) {
+    if (!has_point_times_ && &knot != &path.back()) continue;
+    knots.push_back(
+        {clamp_ns(path.back().stamp - knot.stamp), end_from_odom * knot.odom_from_body * body_from_lidar_});
+  }
+  points_in_body_m_.resize(points_in_lidar_m_.size());
+  const std::span<const Eigen::Vector3f> points = points_in_lidar_m_;
+  const std::span<const std::int32_t> times = before_end_ns_;
+  const std::span<Eigen::Vector3f> moved = points_in_body_m_;
+  loop_.run(points.size(), kBlockSize, [&](std::size_t, std::size_t first, std::size_t last) {
+    const std::size_t count = last - first;
+    pointcloud::deskew(points.subspan(first, count), times.subspan(first, count), knots,
+                       moved.subspan(first, count));
+  });
+}
+
+std::vector<DeskewedPoint> Sweep::deskewed() const {
+  std::vector<DeskewedPoint> points(points_in_body_m_.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {points_in_body_m_[i], reflectivity_[i]};
+  return points;
+}
+
+}  // namespace edgesplat::tracking

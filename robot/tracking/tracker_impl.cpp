@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/tracking/tracker_impl.hpp"
+
+#include "common/geometry/so3.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace edgesplat::tracking {
+namespace {
+
+constexpr std::size_t kBlockSize = 1024;
+/// A rig whose IMU is silent for this many groups starts without it.
+constexpr int kGroupsUntilFree = 10;
+/// Corrections larger than these deskew the points anew with the corrected motion.
+constexpr double kDeskewAgain_m = 0.005;
+constexpr double kDeskewAgain_rad = 0.001;
+
+PlaneMapConfig map_config(const TrackingConfig& config) {
+  return {config.root_voxel_m,
+          config.max_layer,
+          static_cast<float>(config.plane_sigma_max_m),
+          static_cast<std::uint32_t>(config.plane_min_points),
+          static_cast<std::uint32_t>(config.plane_freeze_points),
+          config.map_half_extent_m,
+          static_cast<std::size_t>(config.map_max_mb) << 20U};
+}
+
+ScanUpdateConfig update_config(const TrackingConfig& config) {
+  return {config.max_iterations, static_cast<float>(config.gate_sigma),
+          static_cast<float>(config.min_residual_sigma_m), config.min_residuals};
+}
+
+/// The correction at the path's end, spread evenly over the time since its begin (whose pose was settled
+/// before).
+void bend(std::vector<PathKnot>& path, const geometry::RigidTransform& end) {
+  const HostTime begin = path.front().stamp;
+  const double span_s = to_seconds(path.back().stamp - begin);
+  const Eigen::Vector3d turn =
+      geometry::so3_log(path.back().odom_from_body.rotation.conjugate() * end.rotation);
+  const Eigen::Vector3d shift = end.translation_m - path.back().odom_from_body.translation_m;
+  for (PathKnot& knot : path) {
+    const double share = to_seconds(knot.stamp - begin) / span_s;
+    knot.odom_from_body.rotation =
+        (knot.odom_from_body.rotation * geometry::so3_exp(share * turn)).normalized();
+    knot.odom_from_body.translation_m += share * shift;
+  }
+}
+
+}  // namespace
+
+Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in)
+    : config(config_in),
+      rig(rig_in),
+      loop(config_in.threads),
+      noise(rig_in.lidar),
+      map(map_config(config_in)),
+      updater(update_config(config_in), loop),
+      sweep(rig_in, config_in.max_range_m, loop),
+      free_motion(config_in),
+      initialiser(config_in),
+      with_imu(rig_in.imu.has_value()) {}
+
+Status Tracker::Impl::check_times(const sync::MeasureGroup& group) const {
+  if (group.end < group.begin) {
+    return fail(Errc::kInvalidArgument, fmt::format("group ends at {} ns, before it begins at {} ns: skip it",
+                                                    to_ns(group.end), to_ns(group.begin)));
+  }
+  if (last_end && group.end <= *last_end) {
+    return fail(
+        Errc::kInvalidArgument,
+        fmt::format("group ends at {} ns, not after the one before ({} ns): groups must come in order",
+                    to_ns(group.end), to_ns(*last_end)));
+  }
+  return {};
+}
+
+void Tracker::Impl::clean_imu(const sync::MeasureGroup& group) {
+  std::vector<sync::GroupImu> good;
+  for (const sync::GroupImu& sample : group.imu) {
+    const bool finite = sample.gyro_radps.allFinite() && sample.accel_mps2.allFinite();
+    if (finite && (good.empty() || sample.stamp > good.back().stamp)) {
+      good.push_back(sample);
+    } else {
+      ++counters.bad_imu_samples;
+    }
+  }
+  if (!good.empty()) {
+    imu = std::move(good);
+  } else if (imu.size() > 1) {
+    imu.erase(imu.begin(), imu.end() - 1);
+  }
+}
+
+void Tracker::Impl::initialise(const sync::MeasureGroup& group) {
+  if (with_imu) {
+    groups_without_imu = group.imu.empty() ? groups_without_imu + 1 : 0;
+    with_imu = groups_without_imu < kGroupsUntilFree;
+  }
+  if (!with_imu) {
+    belief = free_motion.first_belief();
+  } else if (const auto initial = initialiser.add(imu)) {
+    belief = initial->belief;
+  }
+}
+
+Prediction Tracker::Impl::predict(const sync::MeasureGroup& group) {
+  const Interval interval{*last_end, group.end};
+  if (!with_imu) return predict_without_imu(*belief, free_motion.without_imu(), interval);
+  Prediction prediction;
+  if (imu.empty()) {
+    prediction = predict_without_imu(*belief, free_motion.in_a_hole(), interval);
+    prediction.imu_covers = false;
+  } else {
+    prediction = predict_with_imu(*belief, imu, *rig.imu, free_motion.in_a_hole(), interval);
+  }
+  if (!prediction.imu_covers) ++counters.imu_gaps;
+  return prediction;
+}
+
+void Tracker::Impl::pick_scan_points() {
+  const auto points = sweep.points_in_body_m();
+  const auto kept = scan_downsampler.run(points, static_cast<float>(config.scan_voxel_m));
+  const auto wanted = static_cast<std::size_t>(config.max_scan_points);
+  const std::size_t count = std::min(kept.size(), wanted);
+  scan_points_m.clear();
+  for (std::size_t i = 0; i < count; ++i) scan_points_m.push_back(points[kept[i * kept.size() / count]]);
+}
+
+ScanUpdateResult Tracker::Impl::update(Prediction& prediction) {
+  sweep.deskew(prediction.path);
+  pick_scan_points();
+  const Eigen::Vector3f lidar_in_body = rig.body_from_lidar.translation_m.cast<float>();
+  ScanUpdateResult result =
+      updater.run(prediction.belief, prediction.belief.state, {scan_points_m, lidar_in_body, &noise}, map);
+  if (!result.updated || !sweep.has_point_times() || prediction.path.size() < 2) return result;
+  const ErrorVector correction = minus(result.belief.state, prediction.belief.state);
+  if (correction.segment<3>(kPos).norm() < kDeskewAgain_m &&
+      correction.segment<3>(kRot).norm() < kDeskewAgain_rad) {
+    return result;
+  }
+  bend(prediction.path, result.belief.state.odom_from_body);
+  sweep.deskew(prediction.path);
+  pick_scan_points();
+  const ScanUpdateResult again =
+      updater.run(prediction.belief, result.belief.state, {scan_points_m, lidar_in_body, &noise}, map);
+  return again.updated ? again : result;
+}
+
+void Tracker::Impl::extend_map(const ScanUpdateResult& result) {
+  // A lost pose must not spoil the map; an unmapped place must enter it.
+  const bool unmapped = static_cast<std::size_t>(result.last.matched) * 10 < scan_points_m.size();
+  if (!result.updated && !unmapped) return;
+  const auto points = sweep.points_in_body_m();
+  const auto kept = map_downsampler.run(points, static_cast<float>(config.map_voxel_m));
+  const geometry::RigidTransform& pose = belief->state.odom_from_body;
+  const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
+  const Eigen::Matrix3f rotation_f = rotation.cast<float>();
+  const Eigen::Matrix3f rotation_noise = belief->covariance.block<3, 3>(kRot, kRot).cast<float>();
+  const Eigen::Matrix3f position_noise = belief->covariance.block<3, 3>(kPos, kPos).cast<float>();
+  const Eigen::Vector3f lidar_in_body = rig.body_from_lidar.translation_m.cast<float>();
+  map_points.resize(kept.size());
+  loop.run(kept.size(), kBlockSize, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Eigen::Vector3f& p = points[kept[i]];
+      Eigen::Matrix3f lever;
+      lever << 0.0F, -p.z(), p.y(), p.z(), 0.0F, -p.x(), -p.y(), p.x(), 0.0F;
+      const Eigen::Matrix3f in_body =
+          noise.covariance(p - lidar_in_body) + lever * rotation_noise * lever.transpose();
+      map_points[i].p_in_odom_m = rotation * p.cast<double>() + pose.translation_m;
+      map_points[i].covariance_m2 = pack(rotation_f * in_body * rotation_f.transpose() + position_noise);
+    }
+  });
+  for (const MapPoint& point : map_points) map.insert(point);
+  map.slide(pose.translation_m);
+}
+
+TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUpdateResult& result) const {
+  TrackedGroup tracked;
+  tracked.stamp = group.end;
+  tracked.odom_from_body = belief->state.odom_from_body;
+  tracked.pose_covariance = belief->covariance.topLeftCorner<6, 6>();
+  tracked.velocity_in_odom_mps = belief->state.velocity_in_odom_mps;
+  if (with_imu) {
+    tracked.gyro_bias_radps = belief->state.gyro_bias_radps;
+    tracked.accel_bias_mps2 = belief->state.accel_bias_mps2;
+  }
+  tracked.health.state = result.updated ? TrackingState::kTracking : TrackingState::kCoasting;
+  tracked.health.points_used = result.last.used;
+  tracked.health.iterations = result.iterations;
+  if (result.last.used > 0)
+    tracked.health.residual_rms_m = std::sqrt(result.last.squares_m2 / result.last.used);
+  tracked.health.translation_conditioning = result.translation_conditioning;
+  tracked.points_in_body = sweep.deskewed();
+  return tracked;
+}
+
+Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
+  EDGESPLAT_TRY_STATUS(check_times(group));
+  ++counters.groups;
+  clean_imu(group);
+  sweep.load(group, counters);
+  ScanUpdateResult result;
+  if (!belief) {
+    initialise(group);
+    last_end = group.end;
+    const PathKnot here{group.end, belief ? belief->state.odom_from_body : geometry::RigidTransform{}};
+    sweep.deskew(std::span(&here, 1));
+    if (!belief) {
+      TrackedGroup waiting;
+      waiting.stamp = group.end;
+      return waiting;
+    }
+    result.updated = true;  // the first pose defines odom
+    extend_map(result);
+    return report(group, result);
+  }
+  Prediction prediction = predict(group);
+  const double dt_s = to_seconds(group.end - *last_end);
+  result = update(prediction);
+  if (!result.updated) ++counters.coasted_groups;
+  if (result.updated && !with_imu)
+    free_motion.observe(minus(result.belief.state, prediction.belief.state), dt_s);
+  belief = result.belief;
+  last_end = group.end;
+  extend_map(result);
+  return report(group, result);
+}
+
+}  // namespace edgesplat::tracking

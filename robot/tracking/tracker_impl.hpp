@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/pointcloud/voxel_downsample.hpp"
+#include "robot/tracking/block_loop.hpp"
+#include "robot/tracking/free_motion.hpp"
+#include "robot/tracking/imu_initialiser.hpp"
+#include "robot/tracking/plane_map.hpp"
+#include "robot/tracking/scan_update.hpp"
+#include "robot/tracking/sweep.hpp"
+#include "robot/tracking/tracker.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace edgesplat::tracking {
+
+/// The stages of one group, in their order. See Tracker.
+struct Tracker::Impl {
+  Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in);
+
+  Result<TrackedGroup> track(const sync::MeasureGroup& group);
+
+  Status check_times(const sync::MeasureGroup& group) const;
+  void clean_imu(const sync::MeasureGroup& group);
+  /// Sets the first belief once there is one.
+  void initialise(const sync::MeasureGroup& group);
+  Prediction predict(const sync::MeasureGroup& group);
+  ScanUpdateResult update(Prediction& prediction);
+  void pick_scan_points();
+  void extend_map(const ScanUpdateResult& update);
+  TrackedGroup report(const sync::MeasureGroup& group, const ScanUpdateResult& update) const;
+
+  TrackingConfig config;
+  sensor::Rig rig;
+  TrackingCounters counters;
+  BlockLoop loop;
+  PointNoise noise;
+  PlaneMap map;
+  ScanUpdater updater;
+  Sweep sweep;
+  FreeMotion free_motion;
+  ImuInitialiser initialiser;
+  bool with_imu;               ///< decided at the first pose, then fixed
+  int groups_without_imu = 0;  ///< in a row, before the first pose
+  std::optional<HostTime> last_end;
+  std::optional<FilterBelief> belief;  ///< at last_end
+  std::vector<sync::GroupImu> imu;     ///< the group's good samples; the newest ever when it has none
+  pointcloud::VoxelDownsampler scan_downsampler;
+  pointcloud::VoxelDownsampler map_downsampler;
+  std::vector<Eigen::Vector3f> scan_points_m;  ///< matched against the map
+  std::vector<MapPoint> map_points;
+};
+
+}  // namespace edgesplat::tracking
