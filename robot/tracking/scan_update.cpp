@@ -50,7 +50,8 @@ std::optional<Linearised> linearise(const PlaneMatch& match, const Eigen::Vector
   const Eigen::Vector3f normal_in_body = pose.rotation.transpose() * plane.normal;
   Linearised line;
   line.residual_m = residual;
-  line.row << p_in_body.cross(normal_in_body), plane.normal;
+  line.row.head<3>() = p_in_body.cross(normal_in_body);
+  line.row.tail<3>() = plane.normal;
   line.variance_m2 = pose.model_variance_m2 + plane.variance_at(match.from_centre_m) +
                      scan.noise->variance_along(p_in_body - scan.lidar_in_body_m, normal_in_body);
   line.spread_m2 = line.variance_m2 + line.row.dot(pose.covariance * line.row);

@@ -2,56 +2,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/tracking/tracking_config.hpp"
 
-#include <fmt/format.h>
-
-#include <string_view>
+#include "common/config/config_file.hpp"
 
 namespace edgesplat::tracking {
-namespace {
 
-struct Range {
-  std::string_view field;
-  double value;
-  double low;
-  double high;
-};
-
-Status check(const Range& range) {
-  if (range.value >= range.low && range.value <= range.high) return {};
-  return fail(Errc::kInvalidConfig,
-              fmt::format("tracking.{} = {} is outside [{}, {}]: correct the configuration", range.field,
-                          range.value, range.low, range.high));
+void describe(config::ConfigReader& reader, TrackingConfig& config) {
+  reader.field("threads", config.threads, {1, 64},
+               "threads of the parallel loops; the result does not depend on it");
+  reader.field("init_s", config.init_s, {0.05, 10},
+               "IMU data gathered for gravity and the gyro bias before the first pose");
+  reader.field("init_accel_spread_max_mps2", config.init_accel_spread_max_mps2, {1e-6, 10},
+               "more spread than this: the start counts as moving");
+  reader.field("init_gyro_rate_max_radps", config.init_gyro_rate_max_radps, {1e-6, 1},
+               "a mean rate or spread above: the start counts as moving");
+  reader.field("init_moving_speed_sigma_mps", config.init_moving_speed_sigma_mps, {1e-3, 50},
+               "1 sigma of the unknown first speed of a moving start");
+  reader.field("motion_accel_mps2_per_sqrt_hz", config.motion_accel_mps2_per_sqrt_hz, {1e-6, 100},
+               "least unrest of the motion without IMU, adapted up");
+  reader.field("motion_turn_radps2_per_sqrt_hz", config.motion_turn_radps2_per_sqrt_hz, {1e-6, 100},
+               "the same for rotation");
+  reader.field("scan_voxel_m", config.scan_voxel_m, {0.01, 5}, "thinning of the points that are matched");
+  reader.field("map_voxel_m", config.map_voxel_m, {0.01, 5}, "thinning of the points that enter the map");
+  reader.field("max_scan_points", config.max_scan_points, {100, 100000},
+               "more matched points than this are thinned evenly");
+  reader.field("root_voxel_m", config.root_voxel_m, {0.1, 10}, "edge of the map's coarsest cells");
+  reader.field("max_layer", config.max_layer, {0, 4}, "how often a cell that is no plane is split in eight");
+  reader.field("plane_sigma_max_m", config.plane_sigma_max_m, {0.001, 1},
+               "a cell whose points scatter more across is no plane");
+  reader.field("plane_min_points", config.plane_min_points, {5, 16}, "points before a plane is fitted");
+  reader.field("plane_freeze_points", config.plane_freeze_points, {8, 100000},
+               "a plane takes no more points after these");
+  reader.field("map_half_extent_m", config.map_half_extent_m, {5, 10000},
+               "cells farther than this along an axis are forgotten");
+  reader.field("map_max_mb", config.map_max_mb, {8, 65536},
+               "the farthest cells are forgotten above this size");
+  reader.field("max_iterations", config.max_iterations, {1, 50}, "of one update");
+  reader.field("gate_sigma", config.gate_sigma, {1, 10}, "residuals beyond this many sigma are left out");
+  reader.field("min_residual_sigma_m", config.min_residual_sigma_m, {0.0001, 1},
+               "model error of every residual: curvature, roughness");
+  reader.field("min_residuals", config.min_residuals, {6, 10000}, "with fewer the group coasts");
+  reader.field("max_range_m", config.max_range_m, {1, 1000},
+               "farther points are left out of matching and map");
 }
 
-}  // namespace
-
+// The ranges stand once, in describe(): printing and reading back checks every one of them.
 Status validate(const TrackingConfig& config) {
-  const Range ranges[] = {
-      {"threads", static_cast<double>(config.threads), 1, 64},
-      {"init_s", config.init_s, 0.05, 10},
-      {"init_accel_spread_max_mps2", config.init_accel_spread_max_mps2, 1e-6, 10},
-      {"init_gyro_rate_max_radps", config.init_gyro_rate_max_radps, 1e-6, 1},
-      {"init_moving_speed_sigma_mps", config.init_moving_speed_sigma_mps, 1e-3, 50},
-      {"motion_accel_mps2_per_sqrt_hz", config.motion_accel_mps2_per_sqrt_hz, 1e-3, 100},
-      {"motion_turn_radps2_per_sqrt_hz", config.motion_turn_radps2_per_sqrt_hz, 1e-3, 100},
-      {"scan_voxel_m", config.scan_voxel_m, 0.01, 5},
-      {"map_voxel_m", config.map_voxel_m, 0.01, 5},
-      {"max_scan_points", static_cast<double>(config.max_scan_points), 100, 100000},
-      {"root_voxel_m", config.root_voxel_m, 0.1, 10},
-      {"max_layer", static_cast<double>(config.max_layer), 0, 4},
-      {"plane_sigma_max_m", config.plane_sigma_max_m, 0.001, 1},
-      {"plane_min_points", static_cast<double>(config.plane_min_points), 5, 32},
-      {"plane_freeze_points", static_cast<double>(config.plane_freeze_points), 8, 100000},
-      {"map_half_extent_m", config.map_half_extent_m, 5, 10000},
-      {"map_max_mb", static_cast<double>(config.map_max_mb), 8, 65536},
-      {"max_iterations", static_cast<double>(config.max_iterations), 1, 50},
-      {"gate_sigma", config.gate_sigma, 1, 10},
-      {"min_residual_sigma_m", config.min_residual_sigma_m, 0.0001, 1},
-      {"min_residuals", static_cast<double>(config.min_residuals), 6, 10000},
-      {"max_range_m", config.max_range_m, 1, 1000},
-  };
-  for (const Range& range : ranges) EDGESPLAT_TRY_STATUS(check(range));
-  return {};
+  EDGESPLAT_TRY(const config::ConfigFile file,
+                config::ConfigFile::parse(config::to_toml(config), "tracking"));
+  TrackingConfig copy;
+  return file.read_into(copy);
 }
 
 }  // namespace edgesplat::tracking

@@ -4,6 +4,10 @@
 
 #include "common/base/result.hpp"
 
+namespace edgesplat::config {
+class ConfigReader;
+}
+
 namespace edgesplat::tracking {
 
 /// Everything tracking can be told; the defaults suit a Mid-360 at walking pace, in- and outdoors. The noise
@@ -29,7 +33,7 @@ struct TrackingConfig {
   double root_voxel_m = 1.0;         ///< edge of the map's coarsest cells, [0.1, 10]
   int max_layer = 2;                 ///< how often a cell that is no plane is split in eight, [0, 4]
   double plane_sigma_max_m = 0.05;   ///< a cell whose points scatter more across is no plane, [0.001, 1]
-  int plane_min_points = 6;          ///< points before a plane is fitted, [5, 32]
+  int plane_min_points = 6;          ///< points before a plane is fitted, [5, 16]
   int plane_freeze_points = 60;      ///< a plane takes no more points after these, [8, 100000]
   double map_half_extent_m = 100.0;  ///< cells farther than this along an axis are forgotten, [5, 10000]
   int map_max_mb = 256;              ///< the farthest cells are forgotten above this size, [8, 65536]
@@ -41,6 +45,8 @@ struct TrackingConfig {
   double max_range_m = 120.0;          ///< farther points are left out of matching and map, [1, 1000]
 };
 
+/// Visits every field with its range, for common/config.
+void describe(config::ConfigReader& reader, TrackingConfig& config);
 /// kInvalidConfig with the field, its value and its range where one is out of range.
 [[nodiscard]] Status validate(const TrackingConfig& config);
 
