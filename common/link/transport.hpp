@@ -35,6 +35,7 @@ struct LaneCounters {
   std::uint64_t chunks_sent = 0;
   std::uint64_t bytes_sent = 0;      ///< payload, without headers
   std::uint64_t write_timeouts = 0;  ///< the network took nothing for 20 ms; tried again
+  std::uint64_t write_failures = 0;  ///< the network refused a chunk for good; its message is lost
   std::uint64_t chunks_received = 0;
   std::uint64_t bytes_received = 0;
   std::uint64_t messages_received = 0;

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "common/link/ack.hpp"
+
+#include "common/link/heartbeat.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace edgesplat::link {
+namespace {
+
+TEST(ReceivedTrains, SettlesInOrder) {
+  ReceivedTrains trains;
+  for (std::uint32_t i = 1; i <= 200; ++i) {
+    EXPECT_TRUE(trains.is_new(i));
+    trains.received(i);
+    EXPECT_FALSE(trains.is_new(i));
+  }
+  EXPECT_EQ(trains.next_train(), 201U);
+  EXPECT_EQ(trains.received_total(), 200U);
+  EXPECT_EQ(trains.lost_total(), 0U);
+}
+
+TEST(ReceivedTrains, KeepsAGapOpenUntilItIsFilled) {
+  ReceivedTrains trains;
+  trains.received(2);
+  trains.received(4);
+  EXPECT_EQ(trains.next_train(), 1U);
+  EXPECT_EQ(trains.received_bits(), 0b1010U);
+  trains.received(1);
+  EXPECT_EQ(trains.next_train(), 3U);
+  trains.received(3);
+  EXPECT_EQ(trains.next_train(), 5U);
+  EXPECT_EQ(trains.received_bits(), 0U);
+}
+
+TEST(ReceivedTrains, RepetitionsCountOnce) {
+  ReceivedTrains trains;
+  trains.received(1);
+  trains.received(1);
+  trains.received(3);
+  trains.received(3);
+  EXPECT_EQ(trains.received_total(), 2U);
+}
+
+TEST(ReceivedTrains, GivenUpOnesAreSettledAndLost) {
+  ReceivedTrains trains;
+  trains.received(1);
+  trains.received(3);
+  trains.give_up(2);
+  EXPECT_EQ(trains.next_train(), 4U);
+  EXPECT_EQ(trains.lost_total(), 1U);
+  EXPECT_FALSE(trains.is_new(2));
+}
+
+TEST(ReceivedTrains, PassesByWhatNeverCame) {
+  ReceivedTrains trains;
+  trains.received(1);
+  for (std::uint32_t i = 3; i <= 100; ++i) trains.received(i);
+  EXPECT_EQ(trains.lost_total(), 1U);
+  EXPECT_EQ(trains.next_train(), 101U);
+  trains.received(1000);  // 101..999 left out; the last 63 of them may still come
+  EXPECT_EQ(trains.next_train(), 1000U - 63U);
+  EXPECT_EQ(trains.lost_total(), 1U + (1000U - 63U - 101U));
+}
+
+TEST(ReceivedTrains, ALateReceiverDoesNotCountWhatWasBefore) {
+  ReceivedTrains trains;
+  trains.received(5000);
+  EXPECT_EQ(trains.lost_total(), 0U);
+  EXPECT_EQ(trains.received_total(), 1U);
+}
+
+TEST(Ack, RoundTrip) {
+  const Ack ack{Lane::kDelta, 0x1122334455667788ULL, 42, 0b101, 77};
+  const auto back = decode_ack(encode_ack(ack));
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(back->lane, Lane::kDelta);
+  EXPECT_EQ(back->session, ack.session);
+  EXPECT_EQ(back->next_train, 42U);
+  EXPECT_EQ(back->received_bits, 0b101U);
+  EXPECT_EQ(back->received_total, 77U);
+}
+
+TEST(Ack, RefusesEveryTruncationAndAWrongLane) {
+  auto bytes = encode_ack(Ack{});
+  for (std::size_t n = 0; n < bytes.size(); ++n) {
+    EXPECT_FALSE(decode_ack(std::span<const std::byte>(bytes).first(n)).has_value());
+  }
+  bytes[6] = std::byte{9};
+  EXPECT_FALSE(decode_ack(bytes).has_value());
+}
+
+TEST(Heartbeat, RoundTrip) {
+  Heartbeat heartbeat;
+  heartbeat.epoch.value = 3;
+  heartbeat.seq = 99;
+  heartbeat.map_hash = 0xABCDEF0123456789ULL;
+  heartbeat.mode = OffloadMode::kLean;
+  heartbeat.render_p95_ms = 12.5F;
+  heartbeat.memory_bytes = 1ULL << 40U;
+  const auto back = decode_heartbeat(encode_heartbeat(heartbeat));
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(back->epoch.value, 3U);
+  EXPECT_EQ(back->seq, 99U);
+  EXPECT_EQ(back->map_hash, heartbeat.map_hash);
+  EXPECT_EQ(back->mode, OffloadMode::kLean);
+  EXPECT_EQ(back->render_p95_ms, 12.5F);
+  EXPECT_EQ(back->memory_bytes, heartbeat.memory_bytes);
+}
+
+TEST(Heartbeat, RefusesTruncationsAndNumbersThatAreNone) {
+  Heartbeat heartbeat;
+  const auto bytes = encode_heartbeat(heartbeat);
+  for (std::size_t n = 0; n < bytes.size(); ++n) {
+    EXPECT_FALSE(decode_heartbeat(std::span<const std::byte>(bytes).first(n)).has_value());
+  }
+  heartbeat.render_p95_ms = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(decode_heartbeat(encode_heartbeat(heartbeat)).has_value());
+}
+
+}  // namespace
+}  // namespace edgesplat::link
