@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+#include "common/time/time.hpp"
+#include "tools/virtual_device/fault_injector.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <stop_token>
+#include <string>
+
+namespace edgesplat::virtual_device {
+
+struct StreamOptions {
+  std::filesystem::path recording;
+  std::string to = "127.0.0.1";  ///< IPv4 address of the robot
+  std::uint16_t points_port = 56301;
+  std::uint16_t imu_port = 56401;
+  std::uint16_t frame_port = 57400;  ///< TCP, on this host; the robot connects
+  double speed = 1.0;                ///< (0, 100]
+  double wait_for_camera_s = 10.0;   ///< for the robot to connect, [0, 3600]; then without
+  FaultInjector::Rates faults;       ///< of the datagrams
+  std::uint64_t seed = 1;            ///< of the faults
+};
+
+/// What happened to everything that was in the recording.
+struct StreamReport {
+  std::uint64_t points_sent = 0;  ///< datagrams
+  std::uint64_t imu_sent = 0;
+  std::uint64_t refused = 0;  ///< by the system: nobody listens
+  std::uint64_t flipped = 0;  ///< on demand
+  std::uint64_t dropped = 0;  ///< on demand
+  std::uint64_t frames_sent = 0;
+  std::uint64_t frames_lost = 0;
+  std::uint64_t messages_skipped = 0;  ///< that could not be decoded
+  std::uint64_t late = 0;              ///< messages more than 5 ms behind their time
+  nanoseconds most_late{};
+  bool camera_connected = false;
+  bool stopped = false;           ///< ended early by request
+  std::string recording_problem;  ///< empty where the recording was whole
+};
+
+/// Plays a recording as the devices would have sent it: raw Livox datagrams over UDP, pictures over TCP, each
+/// at its recorded arrival time. Blocks until the end or a stop. kNotFound, kCorrupt, kIo, kInvalidConfig.
+[[nodiscard]] Result<StreamReport> stream_recording(const StreamOptions& options,
+                                                    const std::stop_token& stop);
+
+}  // namespace edgesplat::virtual_device
