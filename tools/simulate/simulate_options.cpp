@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/simulate/simulate_options.hpp"
+
+#include "common/config/config_file.hpp"
+
+#include <numbers>
+
+namespace edgesplat::simulate {
+namespace {
+
+constexpr double kCameraPitch_rad = 3.0 * std::numbers::pi / 180.0;  // down
+
+sensor::CameraMount camera_mount(const SimulateOptions& options) {
+  sensor::CameraMount camera;
+  geometry::CameraModel& model = camera.model;
+  model.width_px = options.camera_width_px;
+  model.height_px = options.camera_height_px;
+  model.fx_px = 0.5 * options.camera_width_px;  // 90 degrees across
+  model.fy_px = model.fx_px;
+  model.cx_px = 0.5 * (options.camera_width_px - 1) + 0.7;  // no lens sits in the middle
+  model.cy_px = 0.5 * (options.camera_height_px - 1) - 0.4;
+  model.distortion = {-0.06, 0.01, 0.0004, -0.0003};
+  Eigen::Matrix3d body_from_level_camera;  // columns: camera x right, y down, z forward
+  body_from_level_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  camera.body_from_camera.rotation = Eigen::Quaterniond(
+      Eigen::AngleAxisd(kCameraPitch_rad, Eigen::Vector3d::UnitY()) * body_from_level_camera);
+  camera.body_from_camera.translation_m = {0.09, 0.01, 0.13};
+  camera.stamp_delay_s = options.camera_stamp_delay_s;
+  return camera;
+}
+
+// The part of the options that decides what is measured, as TOML.
+void describe_simulation(config::ConfigReader& reader, SimulateOptions& options) {
+  using config::Range;
+  reader.table("world", "what is simulated", [&] {
+    WorldConfig& world = options.world;
+    reader.field("name", world.name, "corridor, street, tunnel or square");
+    reader.field("pedestrians", world.pedestrians, Range{0, 100}, "walking people");
+    reader.field("cars", world.cars, Range{0, 50}, "moving cars");
+    reader.field("seed", world.seed, Range<std::uint64_t>{0, ~0ULL}, "decides every texture, gait and noise");
+  });
+  reader.table("simulation", "how it is measured", [&] {
+    reader.field("seconds", options.seconds, Range{0.0, 36000.0}, "length");
+    reader.choice("lidar", options.lidar, {{"mid360", LidarKind::kMid360}, {"avia", LidarKind::kAvia}},
+                  "scan pattern");
+    reader.choice("clock", options.clock, {{"free", ClockMode::kFree}, {"ptp", ClockMode::kPtp}},
+                  "of the devices");
+    reader.field("body_motion", options.body_motion, Range{0.0, 10.0}, "scale of sway and bumps");
+  });
+}
+
+}  // namespace
+
+Status validate(const SimulateOptions& options) {
+  const auto refuse = [](const std::string& why) { return fail(Errc::kInvalidConfig, why); };
+  if (!(options.seconds > 0.0 && options.seconds <= 36000.0)) {
+    return refuse("--seconds must be in (0, 36000]");
+  }
+  const auto is_side = [](int px) { return px >= 32 && px <= 4096; };
+  const bool no_camera = options.camera_width_px == 0 && options.camera_height_px == 0;
+  if (!no_camera && !(is_side(options.camera_width_px) && is_side(options.camera_height_px))) {
+    return refuse("--camera must be 0x0 (none) or WxH with sides of 32 to 4096 pixels");
+  }
+  if (!(options.camera_stamp_delay_s >= -0.1 && options.camera_stamp_delay_s <= 0.1)) {
+    return refuse("--camera-stamp-delay must be in [-0.1, 0.1] s");
+  }
+  if (!(options.body_motion >= 0.0 && options.body_motion <= 10.0)) {
+    return refuse("--body-motion must be in [0, 10]");
+  }
+  if (options.clean_views && no_camera) return refuse("--clean-views needs a camera");
+  return {};
+}
+
+sensor::Rig simulated_rig(const SimulateOptions& options) {
+  sensor::Rig rig;
+  rig.name = "simulated";
+  rig.lidar.name = options.lidar == LidarKind::kMid360 ? "mid360" : "avia";
+  rig.body_from_lidar.translation_m = {-0.011, -0.02329, 0.04412};  // Mid-360: where its own IMU sits
+  rig.imu = sensor::ImuModel{};
+  if (options.camera_width_px > 0) rig.camera = camera_mount(options);
+  return rig;
+}
+
+CameraSensorConfig simulated_exposure(const SimulateOptions& options) {
+  CameraSensorConfig config;
+  config.seed = options.world.seed;
+  constexpr double kFactors[] = {1.0, 0.8, 1.15, 0.9};
+  for (std::size_t k = 0; 5.0 * static_cast<double>(k) < options.seconds; ++k) {
+    config.exposure_steps.push_back({5.0 * static_cast<double>(k), kFactors[k % std::size(kFactors)]});
+  }
+  return config;
+}
+
+std::string world_toml(const SimulateOptions& options) {
+  SimulateOptions copy = options;
+  return config::print_toml([&copy](config::ConfigReader& reader) { describe_simulation(reader, copy); });
+}
+
+}  // namespace edgesplat::simulate
