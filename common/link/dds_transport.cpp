@@ -89,6 +89,7 @@ class DdsTransport final : public Transport {
       link_thread_->join();
     }
   }
+  [[nodiscard]] bool finished() const override { return inbox_.finished(); }
 
  private:
   /// One turn of the link thread: take in what came, send one chunk, else sleep.

@@ -59,6 +59,7 @@ class InProcessTransport final : public Transport {
   }
   bool drain(Lane, nanoseconds) override { return true; }
   void close() override { mine_->close(); }
+  [[nodiscard]] bool finished() const override { return mine_->finished(); }
 
  private:
   const Role role_;

@@ -65,6 +65,8 @@ class Transport {
   virtual bool drain(Lane lane, nanoseconds timeout) = 0;
   /// Ends waiting calls for good; messages still queued are not sent.
   virtual void close() = 0;
+  /// close() was called and every message that had come was taken: receive() will never give one again.
+  [[nodiscard]] virtual bool finished() const = 0;
 };
 
 }  // namespace edgesplat::link

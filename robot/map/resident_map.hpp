@@ -86,15 +86,16 @@ class ResidentMap {
 
  private:
   struct Held {
+    DeltaHeader header;
     std::vector<std::byte> bytes;
-    std::uint64_t base_seq = 0;
   };
+  // All with mutex_ held.
   ApplyOutcome place(const DeltaHeader& header, std::span<const std::byte> delta);
   ApplyOutcome hold(const DeltaHeader& header, std::span<const std::byte> delta);
-  bool apply_now(std::span<const std::byte> delta);
+  bool apply_now(const DeltaHeader& header, std::span<const std::byte> bytes);
   void apply_held();
   void reset(const DeltaHeader& header);
-  void publish(HostTime now);
+  void publish_where_due(HostTime now);
 
   const ResidentMapConfig config_;
   mutable std::mutex mutex_;  ///< guards everything but published_

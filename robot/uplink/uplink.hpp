@@ -5,6 +5,7 @@
 #include "common/link/heartbeat.hpp"
 #include "common/link/transport.hpp"
 #include "common/map/keyframe.hpp"
+#include "common/time/clock.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -35,8 +36,9 @@ class Uplink {
   /// Called on the uplink's thread for every heartbeat; may be empty.
   using HeartbeatSource = std::function<link::Heartbeat()>;
 
-  /// `transport` must outlive the uplink.
-  Uplink(const UplinkConfig& config, link::Transport& transport, HeartbeatSource heartbeat = {});
+  /// `transport` and `clock` must outlive the uplink.
+  Uplink(const UplinkConfig& config, link::Transport& transport, const Clock& clock,
+         HeartbeatSource heartbeat = {});
   ~Uplink();
   Uplink(const Uplink&) = delete;
   Uplink& operator=(const Uplink&) = delete;
