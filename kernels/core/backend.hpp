@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace edgesplat::core {
+
+/// Where an operation runs. Every operation has a CPU backend; CUDA where it was compiled in and a device is
+/// there.
+enum class Backend : std::uint8_t { kCpu, kCuda };
+[[nodiscard]] std::string_view to_string(Backend backend);
+
+/// Whether this build contains CUDA code at all.
+[[nodiscard]] bool built_with_cuda();
+
+}  // namespace edgesplat::core

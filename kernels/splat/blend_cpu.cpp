@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/splat/blend.hpp"
+#include "kernels/splat/exp_fast.hpp"
+#include "kernels/splat/splat_one.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace edgesplat::splat {
+namespace {
+
+/// A tile's accumulators, channel by channel so that a row of 16 pixels is a vector.
+struct Tile {
+  float transmittance[kTilePx][kTilePx];
+  float active[kTilePx][kTilePx];  ///< 1 until the pixel is full, then 0
+  float red[kTilePx][kTilePx];
+  float green[kTilePx][kTilePx];
+  float blue[kTilePx][kTilePx];
+  float depth[kTilePx][kTilePx];
+};
+
+void clear(Tile& tile) {
+  for (int y = 0; y < kTilePx; ++y) {
+    for (int x = 0; x < kTilePx; ++x) {
+      tile.transmittance[y][x] = 1.0F;
+      tile.active[y][x] = 1.0F;
+      tile.red[y][x] = tile.green[y][x] = tile.blue[y][x] = tile.depth[y][x] = 0.0F;
+    }
+  }
+}
+
+/// Adds one splat to one row of pixels.
+void add_to_row(const Splat& s, float x0_px, float dy, int y, Tile& tile) {
+  const float b = s.conic[1] * dy;
+  const float c = 0.5F * s.conic[2] * dy * dy;
+  for (int x = 0; x < kTilePx; ++x) {
+    const float dx = x0_px + static_cast<float>(x) - s.u_px;
+    const float power = -(0.5F * s.conic[0] * dx * dx + b * dx + c);
+    const float alpha_raw = s.opacity * exp_fast(std::max(std::min(power, 0.0F), -20.0F));
+    const float alpha_cut = std::min(alpha_raw, kMaxAlpha);
+    const float alpha = alpha_cut < kMinAlpha ? 0.0F : alpha_cut;
+    const float before = tile.transmittance[y][x];
+    const float after = before * (1.0F - alpha);
+    const float active = after >= kMinTransmittance ? tile.active[y][x] : 0.0F;
+    const float weight = active * alpha * before;
+    tile.red[y][x] += weight * s.rgb[0];
+    tile.green[y][x] += weight * s.rgb[1];
+    tile.blue[y][x] += weight * s.rgb[2];
+    tile.depth[y][x] += weight * s.depth_m;
+    tile.transmittance[y][x] = active > 0.0F ? after : before;
+    tile.active[y][x] = active;
+  }
+}
+
+bool any_active(const Tile& tile) {
+  float sum = 0.0F;
+  for (const auto& row : tile.active) {
+    for (const float active : row) sum += active;
+  }
+  return sum > 0.0F;
+}
+
+void write_tile(const Tile& tile, int column, int row, const View& view, const RenderOptions& options,
+                const BlendOutputs& out) {
+  const int x0 = column * kTilePx;
+  const int y0 = row * kTilePx;
+  for (int y = 0; y < std::min(kTilePx, view.height_px - y0); ++y) {
+    for (int x = 0; x < std::min(kTilePx, view.width_px - x0); ++x) {
+      const auto pixel = static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(view.width_px) +
+                         static_cast<std::size_t>(x0 + x);
+      const float left = tile.transmittance[y][x];
+      out.colour[3 * pixel] = tile.red[y][x] + left * options.background[0];
+      out.colour[3 * pixel + 1] = tile.green[y][x] + left * options.background[1];
+      out.colour[3 * pixel + 2] = tile.blue[y][x] + left * options.background[2];
+      out.depth_sum_m[pixel] = tile.depth[y][x];
+      out.alpha[pixel] = 1.0F - left;
+    }
+  }
+}
+
+void blend_tile(std::span<const Splat> splats, std::span<const std::uint32_t> list, int column, int row,
+                Tile& tile) {
+  constexpr std::size_t kCheckEvery = 16;  // looking whether the tile is full costs about one splat
+  const auto x0 = static_cast<float>(column * kTilePx);
+  const auto y0 = static_cast<float>(row * kTilePx);
+  clear(tile);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Splat& s = splats[list[i]];
+    const int first = std::max(0, static_cast<int>(std::ceil(s.v_px - s.half_height_px - y0)));
+    const int last = std::min(kTilePx - 1, static_cast<int>(std::floor(s.v_px + s.half_height_px - y0)));
+    for (int y = first; y <= last; ++y) add_to_row(s, x0, y0 + static_cast<float>(y) - s.v_px, y, tile);
+    if (i % kCheckEvery == kCheckEvery - 1 && !any_active(tile)) return;
+  }
+}
+
+}  // namespace
+
+void blend(std::span<const Splat> splats, const TileLists& tiles, const View& view,
+           const RenderOptions& options, const BlendOutputs& out) {
+  tbb::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
+    const int column = t % tiles.columns;
+    const int row = t / tiles.columns;
+    Tile tile;
+    blend_tile(splats, tiles.tile(column, row), column, row, tile);
+    write_tile(tile, column, row, view, options, out);
+  });
+}
+
+}  // namespace edgesplat::splat

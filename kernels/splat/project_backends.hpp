@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/splat/project.hpp"
+
+namespace edgesplat::splat {
+
+/// One implementation a backend; inputs are checked by project().
+[[nodiscard]] Projected project_cpu(const GaussianSpans& gaussians, const View& view,
+                                    const RenderOptions& options);
+[[nodiscard]] Result<Projected> project_cuda(const GaussianSpans& gaussians, const View& view,
+                                             const RenderOptions& options);
+
+}  // namespace edgesplat::splat

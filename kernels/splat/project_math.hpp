@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/core/host_device.hpp"
+
+#include <cmath>
+
+namespace edgesplat::splat {
+
+/// Maths of one Gaussian's projection, shared by every backend and, with T = double, by gradient checks.
+/// Plain arrays and scalars, so that device compilers take it.
+
+template <typename T>
+struct CameraT {
+  T fx, fy, cx, cy;
+  T tan_x, tan_y;  ///< half-width and half-height of the picture over focal length, for the clamp below
+  T rotation[9];   ///< camera_from_map, row-major
+  T translation[3];
+};
+
+template <typename T>
+struct Projection {
+  T p[3];      ///< mean in the camera frame, m
+  T u, v;      ///< mean, px
+  T cov[3];    ///< xx, xy, yy with the low-pass, px^2
+  T conic[3];  ///< inverse of cov: xx, xy, yy
+};
+
+/// Covariance R S S^T R^T of a Gaussian, upper triangle xx xy xz yy yz zz (3DGS, eq. 6). The quaternion (x,
+/// y, z, w) is normalised here.
+template <typename T>
+EDGESPLAT_HOST_DEVICE inline void covariance3d(const T* quat, const T* log_scale, T* cov) {
+  const T norm = std::sqrt(quat[0] * quat[0] + quat[1] * quat[1] + quat[2] * quat[2] + quat[3] * quat[3]);
+  const T x = quat[0] / norm, y = quat[1] / norm, z = quat[2] / norm, w = quat[3] / norm;
+  const T r[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+                  2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+                  2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+  T m[9];
+  for (int j = 0; j < 3; ++j) {
+    const T scale = std::exp(log_scale[j]);
+    for (int i = 0; i < 3; ++i) m[3 * i + j] = r[3 * i + j] * scale;
+  }
+  int k = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j) {
+      cov[k++] = m[3 * i] * m[3 * j] + m[3 * i + 1] * m[3 * j + 1] + m[3 * i + 2] * m[3 * j + 2];
+    }
+  }
+}
+
+/// EWA projection (Zwicker 2001, eq. 31): mean and 2-D covariance J W Sigma W^T J^T + low_pass I. The
+/// direction at which the Jacobian is taken is clamped to 1.3 times the picture's half-angle (as in 3DGS),
+/// since far outside the linearisation explodes. False where the mean is nearer than near_m or the 2-D
+/// covariance is singular.
+template <typename T>
+EDGESPLAT_HOST_DEVICE inline bool project(const CameraT<T>& c, const T* mean, const T* cov3d, T near_m,
+                                          T low_pass, Projection<T>& out) {
+  const T* r = c.rotation;
+  for (int i = 0; i < 3; ++i) {
+    out.p[i] = r[3 * i] * mean[0] + r[3 * i + 1] * mean[1] + r[3 * i + 2] * mean[2] + c.translation[i];
+  }
+  const T z = out.p[2];
+  if (!(z > near_m)) return false;
+  const T x_limit = T(1.3) * c.tan_x, y_limit = T(1.3) * c.tan_y;
+  T x = out.p[0] / z, y = out.p[1] / z;
+  out.u = c.fx * x + c.cx;
+  out.v = c.fy * y + c.cy;
+  x = x < -x_limit ? -x_limit : (x > x_limit ? x_limit : x);
+  y = y < -y_limit ? -y_limit : (y > y_limit ? y_limit : y);
+  // Rows of J W, J = d(u, v)/d(p).
+  T a[3], b[3];
+  for (int i = 0; i < 3; ++i) {
+    a[i] = c.fx / z * (r[i] - x * r[6 + i]);
+    b[i] = c.fy / z * (r[3 + i] - y * r[6 + i]);
+  }
+  const T* s = cov3d;
+  const T sa[3] = {s[0] * a[0] + s[1] * a[1] + s[2] * a[2], s[1] * a[0] + s[3] * a[1] + s[4] * a[2],
+                   s[2] * a[0] + s[4] * a[1] + s[5] * a[2]};
+  const T sb[3] = {s[0] * b[0] + s[1] * b[1] + s[2] * b[2], s[1] * b[0] + s[3] * b[1] + s[4] * b[2],
+                   s[2] * b[0] + s[4] * b[1] + s[5] * b[2]};
+  out.cov[0] = a[0] * sa[0] + a[1] * sa[1] + a[2] * sa[2] + low_pass;
+  out.cov[1] = a[0] * sb[0] + a[1] * sb[1] + a[2] * sb[2];
+  out.cov[2] = b[0] * sb[0] + b[1] * sb[1] + b[2] * sb[2] + low_pass;
+  const T det = out.cov[0] * out.cov[2] - out.cov[1] * out.cov[1];
+  if (!(det > T(0))) return false;
+  out.conic[0] = out.cov[2] / det;
+  out.conic[1] = -out.cov[1] / det;
+  out.conic[2] = out.cov[0] / det;
+  return true;
+}
+
+}  // namespace edgesplat::splat

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/splat/project.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace edgesplat::splat {
+
+inline constexpr int kTilePx = 16;
+
+/// Which splats touch which tile of the picture, nearest first in each tile.
+struct TileLists {
+  int columns = 0;
+  int rows = 0;
+  std::vector<std::uint32_t> starts;  ///< [columns * rows + 1] into `splats`
+  std::vector<std::uint32_t> splats;  ///< rows of Projected::splats
+
+  [[nodiscard]] std::span<const std::uint32_t> tile(int column, int row) const {
+    const auto t = static_cast<std::size_t>(row * columns + column);
+    return {splats.data() + starts[t], starts[t + 1] - starts[t]};
+  }
+};
+
+/// Bins depth-sorted splats into tiles: a tile gets a splat when alpha reaches 1/255 somewhere in it (box
+/// test, then the exact distance of the ellipse to the tile). Deterministic.
+[[nodiscard]] TileLists make_tile_lists(std::span<const Splat> splats, int width_px, int height_px);
+
+}  // namespace edgesplat::splat

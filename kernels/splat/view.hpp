@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+#include "common/geometry/camera_model.hpp"
+#include "common/geometry/rigid_transform.hpp"
+
+#include <array>
+
+namespace edgesplat::splat {
+
+/// From where and how a picture is drawn: a pinhole without distortion, in single precision for the kernels.
+/// Pixel centres lie at integer coordinates (camera_model.hpp).
+struct View {
+  int width_px = 0;
+  int height_px = 0;
+  float fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
+  std::array<float, 9> rotation{};     ///< camera_from_map, row-major
+  std::array<float, 3> translation{};  ///< camera_from_map, m
+  std::array<float, 3> position{};     ///< of the camera in map, m
+
+  /// kInvalidArgument for a fisheye or distorted camera, a senseless one, or a pose that is not finite.
+  static Result<View> from(const geometry::CameraModel& camera,
+                           const geometry::RigidTransform& camera_from_map);
+};
+
+/// Conventions of the blend; the defaults are those of 3D Gaussian Splatting (Kerbl 2023).
+struct RenderOptions {
+  float near_m = 0.05F;       ///< nearer Gaussians are not drawn, > 0
+  float low_pass_px2 = 0.3F;  ///< added to the projected covariance so that a splat covers a pixel, >= 0
+  std::array<float, 3> background{};
+};
+
+}  // namespace edgesplat::splat
