@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+#include "common/io/trajectory_file.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace edgesplat::accuracy {
+
+/// The two poses that an evaluation compares at one moment; each in its own world frame.
+struct PosePair {
+  HostTime stamp{};  ///< the estimate's
+  geometry::RigidTransform estimate;
+  geometry::RigidTransform reference;
+};
+
+/// Pairs each pose of the shorter trajectory with the nearest one of the longer, in time order; pairs more
+/// than `max_diff` apart are left out (evo's association). Neither trajectory has to be sorted.
+[[nodiscard]] std::vector<PosePair> associate(std::span<const io::StampedPose> estimate,
+                                              std::span<const io::StampedPose> reference,
+                                              nanoseconds max_diff);
+
+enum class ReferenceFormat { kTum, kKitti };
+
+struct ReferenceSource {
+  std::filesystem::path path;
+  ReferenceFormat format = ReferenceFormat::kTum;
+  std::optional<std::filesystem::path> times;  ///< KITTI: times.txt, one stamp a pose
+  double rate_hz = 10.0;                       ///< KITTI without times: pose i is at i / rate_hz
+};
+
+/// Reads a reference. KITTI poses have no stamps: theirs come from `times`, else from `rate_hz`, counted from
+/// `start` (the first scan's time). Errors of the files, and kInvalidArgument where times and poses differ in
+/// number.
+[[nodiscard]] Result<std::vector<io::StampedPose>> read_reference(const ReferenceSource& source,
+                                                                  HostTime start);
+
+}  // namespace edgesplat::accuracy
