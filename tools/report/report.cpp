@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/report/report.hpp"
+
+#include "common/io/atomic_file.hpp"
+#include "tools/report/html_page.hpp"
+#include "tools/report/sections.hpp"
+
+#include <fmt/format.h>
+
+namespace edgesplat::report {
+
+Result<Report> write_report(const ReportOptions& options) {
+  EDGESPLAT_TRY(RunFolder run, read_run_folder(options.run));
+  Report report;
+  report.references = find_references(run, options.input);
+  const auto pictures = keyframe_pictures(run, options.max_keyframes);
+  std::vector<double> psnrs_db;
+  for (const KeyframePictures& picture : pictures) {
+    if (picture.psnr_db) psnrs_db.push_back(*picture.psnr_db);
+  }
+  report.summary = summarise(run, report.references, psnrs_db);
+  report.missing = run.missing;
+  report.page = options.run / "report.html";
+
+  std::string body = headline_section(report.summary);
+  body += trajectory_section(run, report.references);
+  body += map_section(run);
+  body += camera_section(pictures);
+  body += timing_section(run);
+  body += losses_section(run);
+  body += settings_section(run);
+  const std::string title = "edgesplat run " + std::filesystem::absolute(options.run).filename().string();
+  EDGESPLAT_TRY_STATUS(io::write_file_atomically(report.page, html_page(title, body)));
+  const std::string summary = to_json(report.summary, report.references).dump(2) + "\n";
+  EDGESPLAT_TRY_STATUS(io::write_file_atomically(options.run / "summary.json", summary));
+  if (!run.trajectory.empty()) {
+    EDGESPLAT_TRY_STATUS(io::write_tum(options.run / "trajectory.tum", run.trajectory));
+  }
+  return report;
+}
+
+std::string to_text(const Report& report) {
+  std::string text;
+  for (const SummaryRow& row : summary_rows(report.summary))
+    text += fmt::format("  {:<30}{}\n", row.label, row.value);
+  for (const Reference& reference : report.references) {
+    text += fmt::format("  {:<30}ATE {:.3f} m, ETE {:.3f} m\n", "against " + reference.name,
+                        reference.evaluation.absolute_m.rmse, reference.evaluation.end_to_end.distance_m);
+  }
+  for (const std::string& sentence : report.missing) text += "  not in the report: " + sentence + "\n";
+  return text + fmt::format("  {:<30}{}\n", "Report", report.page.string());
+}
+
+}  // namespace edgesplat::report

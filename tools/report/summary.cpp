@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/report/summary.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace edgesplat::report {
+namespace {
+
+constexpr double kBytesPerMb = 1e6;
+
+double path_of_m(const std::vector<io::StampedPose>& poses) {
+  double path_m = 0.0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    path_m += (poses[i].world_from_body.translation_m - poses[i - 1].world_from_body.translation_m).norm();
+  }
+  return path_m;
+}
+
+std::optional<double> peak_rss_mb(const nlohmann::json& metrics) {
+  if (!metrics.is_object() || !metrics.contains("process")) return std::nullopt;
+  const auto& process = metrics["process"];
+  if (!process.contains("peak_rss_bytes") || !process["peak_rss_bytes"].is_number()) return std::nullopt;
+  return process["peak_rss_bytes"].get<double>() / kBytesPerMb;
+}
+
+/// Recorded time over the time that tracking and keyframe building took for it.
+std::optional<double> realtime_factor(const RunFolder& run, double duration_s) {
+  double work_ms = 0.0;
+  for (const char* column : {"track_ms", "keyframe_ms"}) {
+    for (const double value : run.groups.numbers(column)) work_ms += std::isfinite(value) ? value : 0.0;
+  }
+  if (work_ms <= 0.0 || duration_s <= 0.0) return std::nullopt;
+  return duration_s / (work_ms / 1e3);
+}
+
+/// Datagrams that never came, by the gaps in the devices' counters.
+std::optional<double> packets_lost(const nlohmann::json& metrics) {
+  std::optional<double> sum;
+  if (!metrics.is_object() || !metrics.contains("counters")) return sum;
+  for (const auto& [name, value] : metrics["counters"].items()) {
+    if (!name.ends_with("packets_lost") && !name.ends_with("datagrams_lost")) continue;
+    if (value.is_number()) sum = sum.value_or(0.0) + value.get<double>();
+  }
+  return sum;
+}
+
+std::string text_or_dash(const std::optional<double>& value, const char* unit, int decimals) {
+  if (!value) return "-";
+  return fmt::format("{:.{}f}", *value, decimals) + (*unit == '\0' ? "" : " ") + unit;
+}
+
+nlohmann::json or_null(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+}  // namespace
+
+std::optional<double> find_metric(const nlohmann::json& metrics, const std::vector<std::string>& names) {
+  if (!metrics.is_object()) return std::nullopt;
+  for (const std::string& name : names) {
+    for (const char* kind : {"counters", "gauges"}) {
+      if (!metrics.contains(kind) || !metrics[kind].contains(name)) continue;
+      if (metrics[kind][name].is_number()) return metrics[kind][name].get<double>();
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<double> percentile(std::vector<double> values, double fraction) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values.size())));
+  return values[std::min(std::max<std::size_t>(rank, 1), values.size()) - 1];
+}
+
+Summary summarise(const RunFolder& run, const std::vector<Reference>& references,
+                  const std::vector<double>& psnrs_db) {
+  Summary s;
+  s.poses = run.trajectory.size();
+  if (s.poses > 1) s.duration_s = to_seconds(run.trajectory.back().stamp - run.trajectory.front().stamp);
+  if (s.poses > 1) s.path_m = path_of_m(run.trajectory);
+  if (!references.empty()) {
+    const accuracy::Evaluation& evaluation = references.front().evaluation;
+    s.ate_rmse_m = evaluation.absolute_m.rmse;
+    s.ete_m = evaluation.end_to_end.distance_m;
+    s.ete_percent = evaluation.end_to_end.percent_of_path;
+    s.path_m = evaluation.path_m;
+  }
+  s.track_ms_p50 = percentile(run.groups.numbers("track_ms"), 0.50);
+  s.track_ms_p95 = percentile(run.groups.numbers("track_ms"), 0.95);
+  s.realtime_factor = realtime_factor(run, s.duration_s);
+  s.packets_lost = packets_lost(run.robot_metrics);
+  s.gaussians = find_metric(run.robot_metrics, {"map.gaussians", "map.resident_gaussians"});
+  s.keyframes = find_metric(run.robot_metrics, {"keyframe.keyframes", "uplink.keyframes"});
+  s.bytes_up = find_metric(run.robot_metrics, {"uplink.bytes", "uplink.sent_bytes", "link.bytes_sent"});
+  s.bytes_down =
+      find_metric(run.robot_metrics, {"downlink.bytes", "downlink.received_bytes", "link.bytes_received"});
+  s.robot_peak_rss_mb = peak_rss_mb(run.robot_metrics);
+  s.server_peak_rss_mb = peak_rss_mb(run.server_metrics);
+  if (!psnrs_db.empty()) {
+    s.render_psnr_db =
+        std::accumulate(psnrs_db.begin(), psnrs_db.end(), 0.0) / static_cast<double>(psnrs_db.size());
+  }
+  return s;
+}
+
+nlohmann::json to_json(const Summary& s, const std::vector<Reference>& references) {
+  nlohmann::json json = {{"duration_s", s.duration_s},
+                         {"poses", s.poses},
+                         {"ate_rmse_m", or_null(s.ate_rmse_m)},
+                         {"ete_m", or_null(s.ete_m)},
+                         {"ete_percent", or_null(s.ete_percent)},
+                         {"path_m", or_null(s.path_m)},
+                         {"track_ms_p50", or_null(s.track_ms_p50)},
+                         {"track_ms_p95", or_null(s.track_ms_p95)},
+                         {"realtime_factor", or_null(s.realtime_factor)},
+                         {"packets_lost", or_null(s.packets_lost)},
+                         {"gaussians", or_null(s.gaussians)},
+                         {"keyframes", or_null(s.keyframes)},
+                         {"bytes_up", or_null(s.bytes_up)},
+                         {"bytes_down", or_null(s.bytes_down)},
+                         {"robot_peak_rss_mb", or_null(s.robot_peak_rss_mb)},
+                         {"server_peak_rss_mb", or_null(s.server_peak_rss_mb)},
+                         {"render_psnr_db", or_null(s.render_psnr_db)},
+                         {"references", nlohmann::json::array()}};
+  for (const Reference& reference : references) {
+    const accuracy::Evaluation& e = reference.evaluation;
+    json["references"].push_back({{"name", reference.name},
+                                  {"pairs", e.pairs},
+                                  {"path_m", e.path_m},
+                                  {"ate_rmse_m", e.absolute_m.rmse},
+                                  {"ate_max_m", e.absolute_m.max},
+                                  {"rpe_per_metre_m", e.per_metre.translation_m.mean},
+                                  {"ete_m", e.end_to_end.distance_m},
+                                  {"ete_percent", e.end_to_end.percent_of_path}});
+  }
+  return json;
+}
+
+std::vector<SummaryRow> summary_rows(const Summary& s) {
+  const auto megabytes = [](const std::optional<double>& bytes) {
+    return bytes ? std::optional<double>(*bytes / kBytesPerMb) : std::nullopt;
+  };
+  std::string track = text_or_dash(s.track_ms_p50, "ms median", 1);
+  if (s.track_ms_p95) track += fmt::format(", {:.1f} ms p95", *s.track_ms_p95);
+  std::string end_to_end = text_or_dash(s.ete_m, "m", 3);
+  if (s.ete_percent) end_to_end += fmt::format(" ({:.2f} % of the path)", *s.ete_percent);
+  return {
+      {"Run", fmt::format("{:.1f} s, {} poses, {}", s.duration_s, s.poses, text_or_dash(s.path_m, "m", 1))},
+      {"Trajectory error (ATE rmse)", text_or_dash(s.ate_rmse_m, "m", 3)},
+      {"Error at the end (ETE)", end_to_end},
+      {"Tracking time per group", track},
+      {"Real-time factor", text_or_dash(s.realtime_factor, "x", 1)},
+      {"Packets lost", text_or_dash(s.packets_lost, "", 0)},
+      {"Keyframes", text_or_dash(s.keyframes, "", 0)},
+      {"Gaussians on the robot", text_or_dash(s.gaussians, "", 0)},
+      {"Picture quality (PSNR)", text_or_dash(s.render_psnr_db, "dB", 1)},
+      {"Sent up / down",
+       text_or_dash(megabytes(s.bytes_up), "MB", 1) + " / " + text_or_dash(megabytes(s.bytes_down), "MB", 1)},
+      {"Peak memory robot / server",
+       text_or_dash(s.robot_peak_rss_mb, "MB", 0) + " / " + text_or_dash(s.server_peak_rss_mb, "MB", 0)}};
+}
+
+}  // namespace edgesplat::report

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tools/report/references.hpp"
+#include "tools/report/run_folder.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace edgesplat::report {
+
+/// The run in numbers. Nothing where a figure does not apply or its source is missing.
+struct Summary {
+  double duration_s = 0.0;
+  std::size_t poses = 0;
+  std::optional<double> ate_rmse_m;  ///< against the first reference
+  std::optional<double> ete_m;
+  std::optional<double> ete_percent;
+  std::optional<double> path_m;  ///< of the reference, else of the estimate
+  std::optional<double> track_ms_p50;
+  std::optional<double> track_ms_p95;
+  std::optional<double> realtime_factor;  ///< recorded seconds per second of tracking work
+  std::optional<double> packets_lost;
+  std::optional<double> gaussians;
+  std::optional<double> keyframes;
+  std::optional<double> bytes_up;
+  std::optional<double> bytes_down;
+  std::optional<double> robot_peak_rss_mb;
+  std::optional<double> server_peak_rss_mb;
+  std::optional<double> render_psnr_db;  ///< Gaussians against the camera, mean over the sampled keyframes
+};
+
+/// `psnrs_db`: of the sampled renders, may be empty.
+[[nodiscard]] Summary summarise(const RunFolder& run, const std::vector<Reference>& references,
+                                const std::vector<double>& psnrs_db);
+
+/// Keys as above, null for what does not apply, and "references": one object for each.
+[[nodiscard]] nlohmann::json to_json(const Summary& summary, const std::vector<Reference>& references);
+
+struct SummaryRow {
+  std::string label;
+  std::string value;  ///< with its unit, "-" for nothing
+};
+[[nodiscard]] std::vector<SummaryRow> summary_rows(const Summary& summary);
+
+/// counters[name] or gauges[name] of a metrics.json, the first of `names` that is there.
+[[nodiscard]] std::optional<double> find_metric(const nlohmann::json& metrics,
+                                                const std::vector<std::string>& names);
+
+/// The value below which `fraction` of the finite values lie (nearest rank); nothing for none.
+[[nodiscard]] std::optional<double> percentile(std::vector<double> values, double fraction);
+
+}  // namespace edgesplat::report

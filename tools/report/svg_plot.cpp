@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/report/svg_plot.hpp"
+
+#include "tools/report/html_text.hpp"
+#include "tools/report/plot_scale.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace edgesplat::report {
+namespace {
+
+constexpr std::size_t kMaxPoints = 1500;
+constexpr double kCharacterWidth = 6.4;  // of the page's 12 px font, on average
+constexpr double kLegendLine = 17.0;
+
+/// Where the curves go inside the picture, and from which data range.
+struct Frame {
+  double left = 58.0;
+  double top = 28.0;
+  double right = 0.0;
+  double bottom = 0.0;
+  AxisRange x;
+  AxisRange y;
+
+  [[nodiscard]] double width() const { return right - left; }
+  [[nodiscard]] double height() const { return bottom - top; }
+  [[nodiscard]] double px(double value) const { return left + (value - x.low) / x.length() * width(); }
+  [[nodiscard]] double py(double value) const { return bottom - (value - y.low) / y.length() * height(); }
+};
+
+AxisRange widened(const AxisRange& range, double length) {
+  const double extra = 0.5 * (length - range.length());
+  return {range.low - extra, range.high + extra};
+}
+
+/// The longer of the two scales rules both, so that shapes keep their proportions.
+void equalise(Frame& frame) {
+  const double units_per_px = std::max(frame.x.length() / frame.width(), frame.y.length() / frame.height());
+  frame.x = widened(frame.x, units_per_px * frame.width());
+  frame.y = widened(frame.y, units_per_px * frame.height());
+}
+
+/// Legend entries flow left to right below the title; returns its height.
+double draw_legend(const Plot& plot, std::string& svg) {
+  double x = 58.0;
+  double y = 34.0;
+  for (const Series& series : plot.series) {
+    const double width = 26.0 + kCharacterWidth * static_cast<double>(series.name.size());
+    if (x > 58.0 && x + width > plot.width) {
+      x = 58.0;
+      y += kLegendLine;
+    }
+    if (series.style == Series::Style::kLine) {
+      svg += fmt::format(
+          R"(<line x1="{:.0f}" y1="{:.0f}" x2="{:.0f}" y2="{:.0f}" stroke="{}" stroke-width="3"/>)", x, y - 4,
+          x + 14, y - 4, series.colour);
+    } else {
+      svg +=
+          fmt::format(R"(<circle cx="{:.0f}" cy="{:.0f}" r="3.5" fill="{}"/>)", x + 7, y - 4, series.colour);
+    }
+    svg += fmt::format(R"(<text x="{:.0f}" y="{:.0f}">{}</text>)", x + 19, y, escape_html(series.name));
+    x += width;
+  }
+  return y;
+}
+
+Frame lay_out(const Plot& plot, double legend_bottom) {
+  Frame frame;
+  frame.top = legend_bottom + 10.0;
+  frame.right = plot.width - 12.0;
+  frame.bottom = plot.height - 40.0;
+  std::vector<const std::vector<double>*> xs;
+  std::vector<const std::vector<double>*> ys;
+  for (const Series& series : plot.series) {
+    xs.push_back(&series.x);
+    ys.push_back(&series.y);
+  }
+  std::vector<double> backdrop_x;
+  std::vector<double> backdrop_y;
+  if (plot.backdrop) {
+    backdrop_x = {plot.backdrop->x_min, plot.backdrop->x_max};
+    backdrop_y = {plot.backdrop->y_min, plot.backdrop->y_max};
+    xs.push_back(&backdrop_x);
+    ys.push_back(&backdrop_y);
+  }
+  frame.x = range_of(xs, false);
+  frame.y = range_of(ys, plot.include_zero);
+  if (plot.equal_scales) equalise(frame);
+  return frame;
+}
+
+void draw_axes(const Plot& plot, const Frame& f, std::string& svg) {
+  for (const Tick& tick : ticks_of(f.x, static_cast<int>(f.width() / 70.0))) {
+    const double x = f.px(tick.value);
+    svg += fmt::format(R"(<line class="grid" x1="{0:.1f}" y1="{1:.1f}" x2="{0:.1f}" y2="{2:.1f}"/>)", x,
+                       f.top, f.bottom);
+    svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)", x, f.bottom + 15,
+                       tick.label);
+  }
+  for (const Tick& tick : ticks_of(f.y, static_cast<int>(f.height() / 40.0))) {
+    const double y = f.py(tick.value);
+    svg += fmt::format(R"(<line class="grid" x1="{1:.1f}" y1="{0:.1f}" x2="{2:.1f}" y2="{0:.1f}"/>)", y,
+                       f.left, f.right);
+    svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="end">{}</text>)", f.left - 5, y + 4,
+                       tick.label);
+  }
+  svg += fmt::format(R"(<rect class="axis" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)", f.left,
+                     f.top, f.width(), f.height());
+  svg += fmt::format(R"(<text x="{:.1f}" y="{}" text-anchor="middle">{}</text>)", f.left + 0.5 * f.width(),
+                     plot.height - 6, escape_html(plot.x_label));
+  const double middle = f.top + 0.5 * f.height();
+  svg += fmt::format(
+      R"svg(<text x="12" y="{0:.1f}" text-anchor="middle" transform="rotate(-90 12 {0:.1f})">{1}</text>)svg",
+      middle, escape_html(plot.y_label));
+}
+
+void draw_line(const Series& series, const Frame& f, std::string& svg) {
+  std::string path;
+  bool pen_down = false;
+  for (const std::size_t i : thin(series.y, kMaxPoints)) {
+    if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) {
+      pen_down = false;
+      continue;
+    }
+    path += fmt::format("{}{:.1f} {:.1f}", pen_down ? 'L' : 'M', f.px(series.x[i]), f.py(series.y[i]));
+    pen_down = true;
+  }
+  svg += fmt::format(R"(<path d="{}" fill="none" stroke="{}" stroke-width="1.6" stroke-linejoin="round"/>)",
+                     path, series.colour);
+}
+
+void draw_dots(const Series& series, const Frame& f, std::string& svg) {
+  for (const std::size_t i : thin(series.y, kMaxPoints)) {
+    if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) continue;
+    svg += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="4" fill="{}"/>)", f.px(series.x[i]),
+                       f.py(series.y[i]), series.colour);
+  }
+}
+
+}  // namespace
+
+std::string draw(const Plot& plot) {
+  std::string svg = fmt::format(
+      R"(<svg viewBox="0 0 {0} {1}" role="img" aria-label="{2}"><text class="title" x="58" y="15">{2}</text>)",
+      plot.width, plot.height, escape_html(plot.title));
+  const double legend_bottom = plot.series.empty() ? 18.0 : draw_legend(plot, svg);
+  const Frame frame = lay_out(plot, legend_bottom);
+  if (plot.backdrop) {
+    const Backdrop& b = *plot.backdrop;
+    svg += fmt::format(
+        R"(<image x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" preserveAspectRatio="none" href="{}"/>)",
+        frame.px(b.x_min), frame.py(b.y_max), frame.px(b.x_max) - frame.px(b.x_min),
+        frame.py(b.y_min) - frame.py(b.y_max), b.data_uri);
+  }
+  draw_axes(plot, frame, svg);
+  for (const Series& series : plot.series) {
+    if (series.style == Series::Style::kLine) {
+      draw_line(series, frame, svg);
+    } else {
+      draw_dots(series, frame, svg);
+    }
+  }
+  return svg + "</svg>\n";
+}
+
+}  // namespace edgesplat::report
