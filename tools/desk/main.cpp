@@ -21,6 +21,8 @@ int main(int argc, char** argv) {
       "Exit codes: 0 done, 1 failed, 2 usage or configuration. `edgesplat VERB --help` explains a verb.");
   desk::VerbContext context;
   desk::add_evaluate_verb(app, context);
+  desk::add_inspect_verb(app, context);
+  desk::add_report_verb(app, context);
 
   try {
     app.parse(argc, argv);
