@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/base/check.hpp"
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -72,7 +74,10 @@ class ByteWriter {
   /// Overwrites a field written earlier, e.g. a length or a checksum.
   template <typename T>
   requires std::is_arithmetic_v<T>
-  void patch(std::size_t position, T value) { std::memcpy(bytes_.data() + position, &value, sizeof(T)); }
+  void patch(std::size_t position, T value) {
+    EDGESPLAT_CHECK(position <= bytes_.size() && sizeof(T) <= bytes_.size() - position, "patch in range");
+    std::memcpy(bytes_.data() + position, &value, sizeof(T));
+  }
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
   [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
