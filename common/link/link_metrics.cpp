@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "common/link/link_metrics.hpp"
+
+#include <string>
+#include <utility>
+
+namespace edgesplat::link {
+
+void record(metrics::Registry& registry, const LinkCounters& counters) {
+  for (const Lane lane : kLanes) {
+    const LaneCounters& of = counters[static_cast<std::size_t>(lane)];
+    if (of.messages_offered == 0 && of.chunks_received == 0) continue;
+    const std::string prefix = "link." + std::string(to_string(lane)) + ".";
+    const std::pair<const char*, std::uint64_t> fields[] = {
+        {"messages_offered", of.messages_offered},
+        {"messages_dropped", of.messages_dropped},
+        {"messages_replaced", of.messages_replaced},
+        {"messages_sent", of.messages_sent},
+        {"messages_acked", of.messages_acked},
+        {"chunks_sent", of.chunks_sent},
+        {"bytes_sent", of.bytes_sent},
+        {"write_timeouts", of.write_timeouts},
+        {"write_failures", of.write_failures},
+        {"chunks_received", of.chunks_received},
+        {"bytes_received", of.bytes_received},
+        {"messages_received", of.messages_received},
+        {"messages_corrupt", of.messages_corrupt},
+        {"messages_lost", of.messages_lost},
+        {"inbox_drops", of.inbox_drops},
+        {"queued_messages", of.queued_messages},
+        {"queued_bytes", of.queued_bytes},
+    };
+    for (const auto& [name, value] : fields) registry.gauge(prefix + name).set(static_cast<double>(value));
+  }
+}
+
+}  // namespace edgesplat::link

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/link/transport.hpp"
+#include "common/metrics/registry.hpp"
+
+namespace edgesplat::link {
+
+/// Sets the gauges link.<lane>.<field of LaneCounters>, e.g. link.keyframe.bytes_sent, of every lane that was
+/// used.
+void record(metrics::Registry& registry, const LinkCounters& counters);
+
+}  // namespace edgesplat::link

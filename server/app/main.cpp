@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "common/config/config_file.hpp"
+#include "common/io/atomic_file.hpp"
+#include "common/link/dds_transport.hpp"
+#include "common/link/link_metrics.hpp"
+#include "common/log/log.hpp"
+#include "server/app/options.hpp"
+#include "server/app/server.hpp"
+#include "server/stream/epoch_file.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <system_error>
+
+namespace {
+
+using namespace edgesplat;
+
+/// SIGTERM and SIGINT, kept for sigtimedwait: to be blocked before any thread starts.
+sigset_t block_end_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  return signals;
+}
+
+/// True when an end signal came within `timeout`.
+bool wait_for_end(const sigset_t& signals, nanoseconds timeout) {
+  const timespec wait{timeout.count() / 1'000'000'000, timeout.count() % 1'000'000'000};
+  return sigtimedwait(&signals, nullptr, &wait) > 0;
+}
+
+Status make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return fail(Errc::kIo, "cannot create " + folder.string() + ": " + error.message());
+  return {};
+}
+
+void run_until_end(app::Server& server, const app::Options& options, const sigset_t& signals) {
+  const nanoseconds period = from_seconds(options.config.heartbeat_period_s);
+  while (!wait_for_end(signals, period)) {
+    server.send_heartbeats();
+    if (options.idle_exit_s && server.idle() >= from_seconds(*options.idle_exit_s)) {
+      EDGESPLAT_LOG_INFO("server", "idle: ending", "idle_exit_s", *options.idle_exit_s);
+      return;
+    }
+  }
+  EDGESPLAT_LOG_INFO("server", "asked to end");
+}
+
+Status run(const app::Options& options) {
+  const sigset_t signals = block_end_signals();
+  const auto folder = options.out / "server";
+  EDGESPLAT_TRY_STATUS(make_folder(folder));
+  const SteadyClock clock;
+  metrics::Registry registry;
+  EDGESPLAT_TRY(auto domain, link::DdsDomain::open(options.config.link));
+  link::DdsTransportOptions transport_options;
+  transport_options.role = link::Role::kServer;
+  EDGESPLAT_TRY(const auto transport, link::open_dds_transport(std::move(domain), transport_options, clock));
+  EDGESPLAT_TRY(const map::Epoch epoch, stream::next_epoch(folder / "epoch"));
+  app::Server server(options.config, epoch, *transport, registry, clock);
+  EDGESPLAT_LOG_INFO("server", "ready", "epoch", epoch.value, "interface", options.config.link.interface,
+                     "domain", options.config.link.domain, "out", folder.string());
+  run_until_end(server, options, signals);
+  server.finish(std::chrono::seconds(2));
+  link::record(registry, transport->counters());
+  EDGESPLAT_TRY_STATUS(io::write_file_atomically(folder / "metrics.json", registry.to_json()));
+  for (const app::MapStatus& status : server.status()) {
+    EDGESPLAT_LOG_INFO("server", "map", "robot", status.robot.value, "gaussians", status.gaussians, "seq",
+                       status.seq, "hash", status.map_hash);
+  }
+  return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto options = app::parse_options(argc, argv);
+  if (!options) {
+    std::fprintf(stderr, "edgesplat-server: %s\n", options.error().context.c_str());
+    return exit_code(options.error());
+  }
+  if (const auto level = log::parse_level(options->config.log_level)) log::set_level(*level);
+  switch (options->action) {
+    case app::Options::Action::kDone:
+      return 0;
+    case app::Options::Action::kCheckConfig:
+      std::fprintf(stderr, "edgesplat-server: configuration is valid\n");
+      return 0;
+    case app::Options::Action::kPrintConfig:
+      std::fputs(config::to_toml(options->config).c_str(), stdout);
+      return 0;
+    case app::Options::Action::kRun:
+      break;
+  }
+  const Status status = run(*options);
+  if (status) return 0;
+  std::fprintf(stderr, "edgesplat-server: %s\n", status.error().context.c_str());
+  return exit_code(status.error());
+}
