@@ -7,21 +7,26 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
 namespace edgesplat::config {
 
-struct Node;
+struct Entry;
 /// Entries in the order of the file; keys are unique.
-using Table = std::vector<std::pair<std::string, Node>>;
+using Table = std::vector<Entry>;
 
 /// One value of a configuration file with its place: what the rest of common/config sees of TOML.
 struct Node {
   /// monostate: a TOML date or time, which no field of the project takes.
   std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<Node>, Table> value;
   int line = 0;  ///< 1-based; 0 for a value set on the command line
+};
+
+/// A struct, since clang refuses std::pair of a type that is not complete yet.
+struct Entry {
+  std::string first;  ///< key
+  Node second;
 };
 
 /// The value at `key`, or null.
