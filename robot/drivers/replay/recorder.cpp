@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/drivers/replay/recorder.hpp"
+
+#include "common/base/bytes.hpp"
+#include "common/io/recording_topics.hpp"
+#include "common/io/ros_messages.hpp"
+
+#include <utility>
+
+namespace edgesplat::replay {
+namespace {
+
+std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+/// The stamp field of a Livox data packet; 0 where the datagram is too short to have one.
+SensorTime stamp_of(std::span<const std::byte> datagram) {
+  constexpr std::size_t kStampAt = 28;
+  ByteReader reader(datagram);
+  reader.skip(kStampAt);
+  return sensor_time_from_ns(reader.read<std::int64_t>());
+}
+
+io::FrameMeta meta_of(const frame_socket::FrameHeader& header) {
+  return {header.stamp, header.sequence, header.exposure_s, header.gain_db, header.stamp_source};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Recorder>> Recorder::create(const std::filesystem::path& path,
+                                                   std::string_view rig_toml, std::string_view robot_toml,
+                                                   const RecorderConfig& config) {
+  EDGESPLAT_TRY(io::McapWriter writer, io::McapWriter::create(path));
+  std::unique_ptr<Recorder> recorder(new Recorder(std::move(writer), config));
+  EDGESPLAT_TRY_STATUS(
+      recorder->writer_.add_attachment(io::kRigAttachment, "application/toml", bytes_of(rig_toml)));
+  EDGESPLAT_TRY_STATUS(
+      recorder->writer_.add_attachment(io::kRobotConfigAttachment, "application/toml", bytes_of(robot_toml)));
+  EDGESPLAT_TRY_STATUS(recorder->add_channels());
+  return recorder;
+}
+
+Recorder::Recorder(io::McapWriter writer, const RecorderConfig& config)
+    : writer_(std::move(writer)),
+      queue_({config.queue_items, config.queue_bytes}, thread::Overflow::kDropNewest) {}
+
+Status Recorder::add_channels() {
+  struct Entry {
+    Topic topic;
+    std::string_view name;
+    const io::RosSchema* schema;
+  };
+  const std::array<Entry, kTopicCount> entries{
+      Entry{kPoints, io::kLidarPointsTopic, &io::kRawDatagramSchema},
+      Entry{kImu, io::kLidarImuTopic, &io::kRawDatagramSchema},
+      Entry{kMeta, io::kCameraMetaTopic, &io::kFrameMetaSchema},
+      Entry{kImage, io::kCameraImageTopic, &io::kCompressedImageSchema}};
+  for (const Entry& entry : entries) {
+    EDGESPLAT_TRY(const io::McapSchemaId schema,
+                  writer_.add_schema(entry.schema->name, io::kRosSchemaEncoding, entry.schema->text));
+    EDGESPLAT_TRY(channels_.at(entry.topic), writer_.add_channel(entry.name, schema));
+  }
+  return {};
+}
+
+void Recorder::on_datagram(const livox::Datagram& datagram) {
+  (void)queue_.push(
+      QueuedDatagram{datagram.channel, datagram.arrival, {datagram.bytes.begin(), datagram.bytes.end()}},
+      datagram.bytes.size());  // a full queue counts by itself
+}
+
+void Recorder::on_frame(const frame_socket::EncodedFrame& frame, HostTime arrival) {
+  (void)queue_.push(QueuedFrame{arrival, frame}, frame.payload.size());
+}
+
+Result<bool> Recorder::write_next(const std::stop_token& stop) {
+  const auto item = queue_.pop(stop);
+  if (!item) return false;
+  EDGESPLAT_TRY_STATUS(write(*item));
+  return true;
+}
+
+Status Recorder::finish() {
+  queue_.close();
+  Status first;
+  while (const auto item = queue_.try_pop()) {
+    if (Status status = write(*item); !status && first) first = std::move(status);
+  }
+  Status closed = writer_.close();
+  return first ? closed : first;
+}
+
+Status Recorder::write(const Item& item) {
+  const std::uint64_t dropped_before = writer_.messages_dropped();  // after a full disk the writer only counts
+  const Status status = std::visit([this](const auto& one) { return write(one); }, item);
+  ++(status && writer_.messages_dropped() == dropped_before ? written_ : failed_);
+  return status;
+}
+
+Status Recorder::write(const QueuedDatagram& datagram) {
+  const Topic topic = datagram.channel == livox::Channel::kImu ? kImu : kPoints;
+  return write(topic, datagram.arrival, stamp_of(datagram.bytes),
+               io::encode(io::RawDatagram{datagram.bytes}));
+}
+
+Status Recorder::write(const QueuedFrame& queued) {
+  const frame_socket::FrameHeader& header = queued.frame.header;
+  EDGESPLAT_TRY_STATUS(write(kMeta, queued.arrival, header.stamp, io::encode(meta_of(header))));
+  io::CompressedImage image;
+  image.stamp = header.stamp;
+  image.frame_id = "camera";
+  image.format = header.format == frame_socket::PictureFormat::kPng ? "png" : "jpeg";
+  image.encoded = queued.frame.payload;
+  return write(kImage, queued.arrival, header.stamp, io::encode(image));
+}
+
+Status Recorder::write(Topic topic, HostTime arrival, SensorTime stamp, std::span<const std::byte> payload) {
+  return writer_.write(channels_.at(topic), sequences_.at(topic)++, arrival, stamp, payload);
+}
+
+RecorderCounters Recorder::counters() const {
+  return {written_.load(), queue_.stats().dropped, failed_.load()};
+}
+
+}  // namespace edgesplat::replay

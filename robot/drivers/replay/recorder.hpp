@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+#include "common/io/mcap_writer.hpp"
+#include "common/thread/bounded_queue.hpp"
+#include "robot/drivers/frame_socket/frame_assembler.hpp"
+#include "robot/drivers/livox/livox_transport.hpp"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace edgesplat::replay {
+
+struct RecorderConfig {
+  std::size_t queue_items = 16'384;                  ///< 6 s of a Mid-360
+  std::size_t queue_bytes = std::size_t{96} << 20U;  ///< what waits for the disk at most
+};
+
+struct RecorderCounters {
+  std::uint64_t written = 0;  ///< datagrams and pictures that reached the file
+  std::uint64_t dropped = 0;  ///< the disk was too slow: the queue was full
+  std::uint64_t failed = 0;   ///< lost to a write error (disk full)
+};
+
+/// Writes what the sensors send, byte for byte and with its arrival, to a recording that ReplaySource reads
+/// back. on_*() may be called from any thread and never wait; one thread calls write_next() until it gives
+/// false. Each datagram costs one copy.
+class Recorder {
+ public:
+  /// Creates the file with the attachments rig.toml and robot.toml. kIo.
+  static Result<std::unique_ptr<Recorder>> create(const std::filesystem::path& path,
+                                                  std::string_view rig_toml, std::string_view robot_toml,
+                                                  const RecorderConfig& config = {});
+
+  void on_datagram(const livox::Datagram& datagram);
+  void on_frame(const frame_socket::EncodedFrame& frame, HostTime arrival);
+
+  /// Waits for something to write and writes it. False when `stop` is requested, or finish() was called, and
+  /// everything is written. A write error is returned once; later messages are counted as failed.
+  [[nodiscard]] Result<bool> write_next(const std::stop_token& stop);
+  /// Writes what waits and the file's summary. Call it after the writing thread has ended.
+  [[nodiscard]] Status finish();
+  [[nodiscard]] RecorderCounters counters() const;
+
+ private:
+  struct QueuedDatagram {
+    livox::Channel channel;
+    HostTime arrival;
+    std::vector<std::byte> bytes;
+  };
+  struct QueuedFrame {
+    HostTime arrival;
+    frame_socket::EncodedFrame frame;
+  };
+  using Item = std::variant<QueuedDatagram, QueuedFrame>;
+  enum Topic : std::uint8_t { kPoints, kImu, kMeta, kImage, kTopicCount };
+
+  Recorder(io::McapWriter writer, const RecorderConfig& config);
+  [[nodiscard]] Status add_channels();
+  [[nodiscard]] Status write(const Item& item);
+  [[nodiscard]] Status write(const QueuedDatagram& datagram);
+  [[nodiscard]] Status write(const QueuedFrame& frame);
+  [[nodiscard]] Status write(Topic topic, HostTime arrival, SensorTime stamp,
+                             std::span<const std::byte> payload);
+
+  io::McapWriter writer_;
+  thread::BoundedQueue<Item> queue_;
+  std::array<io::McapChannelId, kTopicCount> channels_{};
+  std::array<std::uint32_t, kTopicCount> sequences_{};
+  std::atomic<std::uint64_t> written_{0};
+  std::atomic<std::uint64_t> failed_{0};
+};
+
+}  // namespace edgesplat::replay
