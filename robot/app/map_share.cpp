@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/app/map_share.hpp"
+
+#include "common/link/dds_transport.hpp"
+#include "common/log/log.hpp"
+
+#include <string>
+#include <utility>
+
+namespace edgesplat::app {
+namespace {
+
+void publish_lane(metrics::Registry& metrics, const std::string& lane, const link::LaneCounters& c) {
+  const std::pair<const char*, std::uint64_t> counted[] = {
+      {"messages_offered", c.messages_offered},
+      {"messages_dropped", c.messages_dropped},
+      {"messages_sent", c.messages_sent},
+      {"messages_acked", c.messages_acked},
+      {"bytes_sent", c.bytes_sent},
+      {"bytes_received", c.bytes_received},
+      {"messages_received", c.messages_received},
+      {"messages_corrupt", c.messages_corrupt},
+      {"messages_lost", c.messages_lost},
+      {"inbox_drops", c.inbox_drops},
+      {"write_timeouts", c.write_timeouts},
+  };
+  for (const auto& [name, value] : counted) metrics.counter("link." + lane + "." + name).add(value);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MapShare>> MapShare::create(const robot_config::RobotConfig& config,
+                                                   const Clock& clock) {
+  EDGESPLAT_TRY(const std::shared_ptr<link::DdsDomain> domain, link::DdsDomain::open(config.server.link));
+  link::DdsTransportOptions options;
+  options.role = link::Role::kRobot;
+  options.robot = config.uplink.robot;
+  EDGESPLAT_TRY(std::unique_ptr<link::Transport> transport, link::open_dds_transport(domain, options, clock));
+  return std::make_unique<MapShare>(config, std::move(transport), clock);
+}
+
+MapShare::MapShare(const robot_config::RobotConfig& config, std::unique_ptr<link::Transport> transport,
+                   const Clock& clock)
+    : clock_(clock), transport_(std::move(transport)), resident_(config.map) {
+  uplink::DownlinkHandlers handlers;
+  handlers.on_delta = [this](std::span<const std::byte> delta) { resident_.apply(delta, clock_.now()); };
+  handlers.on_heartbeat = [this](const link::Heartbeat& heartbeat) { on_heartbeat(heartbeat); };
+  handlers.on_idle = [this] { resident_.publish_if_due(clock_.now()); };
+  downlink_ = std::make_unique<uplink::Downlink>(*transport_, std::move(handlers));
+  uplink_ = std::make_unique<uplink::Uplink>(config.uplink, *transport_, clock_);
+}
+
+MapShare::~MapShare() = default;
+
+void MapShare::submit(std::shared_ptr<const map::Keyframe> keyframe) {
+  (void)uplink_->submit(std::move(keyframe));
+}
+
+void MapShare::on_heartbeat(const link::Heartbeat& heartbeat) {
+  const map::MapPosition here = resident_.position();
+  const bool agrees =
+      heartbeat.queued_messages == 0 && heartbeat.epoch == here.epoch && heartbeat.seq == here.seq;
+  const std::lock_guard lock(agreement_mutex_);
+  agreeing_heartbeats_ = agrees ? agreeing_heartbeats_ + 1 : 0;
+  agreement_changed_.notify_all();
+}
+
+bool MapShare::drain(nanoseconds timeout) {
+  const HostTime start = clock_.now();
+  if (!uplink_->drain(timeout)) return false;
+  const nanoseconds left = timeout - (clock_.now() - start);
+  std::unique_lock lock(agreement_mutex_);
+  agreeing_heartbeats_ = 0;
+  // The first heartbeat may have been on its way before the last keyframe came in: the second one counts.
+  return agreement_changed_.wait_for(lock, left, [this] { return agreeing_heartbeats_ >= 2; });
+}
+
+std::shared_ptr<const gaussian::GaussianCloud> MapShare::newest_snapshot() {
+  resident_.publish_if_due(clock_.now() + std::chrono::hours(1));  // due whatever the pace
+  return resident_.snapshot();
+}
+
+void MapShare::publish_counters(metrics::Registry& metrics) const {
+  const uplink::UplinkCounters up = uplink_->counters();
+  metrics.counter("uplink.submitted").add(up.submitted);
+  metrics.counter("uplink.dropped").add(up.dropped);
+  metrics.counter("uplink.refused").add(up.refused);
+  metrics.counter("uplink.encoded_bytes").add(up.encoded_bytes);
+  const map::ResidentMapCounters resident = resident_.counters();
+  metrics.counter("map.deltas_applied").add(resident.applied);
+  metrics.counter("map.deltas_duplicate").add(resident.duplicates);
+  metrics.counter("map.deltas_held").add(resident.held);
+  metrics.counter("map.deltas_corrupt").add(resident.corrupt);
+  metrics.counter("map.resets").add(resident.resets);
+  metrics.gauge("map.gaussians").set(static_cast<double>(resident.gaussians));
+  metrics.gauge("map.resident_bytes").set(static_cast<double>(resident.resident_bytes));
+  std::uint64_t bytes_up = 0;
+  std::uint64_t bytes_down = 0;
+  const link::LinkCounters lanes = transport_->counters();
+  for (const link::Lane lane : link::kLanes) {
+    const link::LaneCounters& counters = lanes[static_cast<std::size_t>(lane)];
+    publish_lane(metrics, std::string(link::to_string(lane)), counters);
+    bytes_up += counters.bytes_sent;
+    bytes_down += counters.bytes_received;
+  }
+  metrics.counter("link.bytes_up").add(bytes_up);
+  metrics.counter("link.bytes_down").add(bytes_down);
+}
+
+}  // namespace edgesplat::app

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/link/transport.hpp"
+#include "common/metrics/registry.hpp"
+#include "common/time/clock.hpp"
+#include "robot/config/robot_config.hpp"
+#include "robot/map/resident_map.hpp"
+#include "robot/uplink/downlink.hpp"
+#include "robot/uplink/uplink.hpp"
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+
+namespace edgesplat::app {
+
+/// The robot's side of the shared map: keyframes go up, deltas come down into the resident map. Nothing here
+/// makes a caller wait for the server. Thread-safe.
+class MapShare {
+ public:
+  /// kUnavailable, kIo where the transport cannot be opened (wrong interface, ...).
+  static Result<std::unique_ptr<MapShare>> create(const robot_config::RobotConfig& config,
+                                                  const Clock& clock);
+  /// Over a transport of the caller's, for tests.
+  MapShare(const robot_config::RobotConfig& config, std::unique_ptr<link::Transport> transport,
+           const Clock& clock);
+  ~MapShare();
+  MapShare(const MapShare&) = delete;
+  MapShare& operator=(const MapShare&) = delete;
+
+  void submit(std::shared_ptr<const map::Keyframe> keyframe);
+  [[nodiscard]] std::shared_ptr<const gaussian::GaussianCloud> snapshot() const {
+    return resident_.snapshot();
+  }
+  /// The same with everything that was applied, whatever the publishing pace.
+  [[nodiscard]] std::shared_ptr<const gaussian::GaussianCloud> newest_snapshot();
+  [[nodiscard]] map::MapFromOdom map_from_odom() const { return resident_.map_from_odom(); }
+  [[nodiscard]] map::ResidentMapCounters map_counters() const { return resident_.counters(); }
+
+  /// At the end of a run: waits until the server has every keyframe, has nothing queued and everything it
+  /// made is applied here, up to `timeout` in all. False when time ran out first.
+  bool drain(nanoseconds timeout);
+  void publish_counters(metrics::Registry& metrics) const;
+
+ private:
+  void on_heartbeat(const link::Heartbeat& heartbeat);
+
+  const Clock& clock_;
+  std::unique_ptr<link::Transport> transport_;
+  map::ResidentMap resident_;
+  std::mutex agreement_mutex_;
+  std::condition_variable agreement_changed_;
+  int agreeing_heartbeats_ = 0;  ///< in a row that say: nothing queued, and all that was made is applied here
+  std::unique_ptr<uplink::Downlink> downlink_;
+  std::unique_ptr<uplink::Uplink> uplink_;
+};
+
+}  // namespace edgesplat::app

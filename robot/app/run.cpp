@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/app/run.hpp"
+
+#include "common/config/config_file.hpp"
+#include "common/log/log.hpp"
+#include "common/sensor/rig_config.hpp"
+#include "robot/app/live_input.hpp"
+#include "robot/app/map_share.hpp"
+#include "robot/app/pipeline.hpp"
+#include "robot/app/progress.hpp"
+#include "robot/app/render_loop.hpp"
+#include "robot/app/replay_input.hpp"
+#include "robot/app/run_folder.hpp"
+#include "robot/app/sensing_chain.hpp"
+
+#include <cstdio>
+#include <optional>
+#include <string>
+
+namespace edgesplat::app {
+namespace {
+
+Result<robot_config::RobotConfig> load_config(const Options& o) {
+  config::ConfigFile file;
+  if (!o.config_file.empty()) {
+    EDGESPLAT_TRY(file, config::ConfigFile::load(o.config_file));
+  }
+  for (const std::string& assignment : o.overrides) EDGESPLAT_TRY_STATUS(file.apply_override(assignment));
+  robot_config::RobotConfig config;
+  EDGESPLAT_TRY_STATUS(file.read_into(config));
+  if (o.threads) config.tracking.threads = *o.threads;
+  if (o.server) config.server.enabled = *o.server;
+  if (o.interface_name) config.server.link.interface = *o.interface_name;
+  if (o.domain) config.server.link.domain = *o.domain;
+  if (o.points_port) config.livox.points_port = static_cast<std::uint16_t>(*o.points_port);
+  if (o.imu_port) config.livox.imu_port = static_cast<std::uint16_t>(*o.imu_port);
+  if (o.frame_port) config.camera.port = static_cast<std::uint16_t>(*o.frame_port);
+  return config;
+}
+
+Result<sensor::Rig> load_rig(const Options& o, const std::optional<replay::ReplaySource>& recording) {
+  if (!o.rig_file.empty()) {
+    EDGESPLAT_TRY(const config::ConfigFile file, config::ConfigFile::load(o.rig_file));
+    sensor::Rig rig;
+    EDGESPLAT_TRY_STATUS(file.read_into(rig));
+    return rig;
+  }
+  if (recording) return recording->rig();
+  return fail(Errc::kInvalidConfig,
+              "a live run needs --rig FILE: which sensors there are and where they sit");
+}
+
+/// The threaded run: live sensors or a paced recording.
+Status run_threads(const Options& o, const robot_config::RobotConfig& config, const sensor::Rig& rig,
+                   std::optional<replay::ReplaySource>& recording, SensingChain& chain, MapShare* share,
+                   const Clock& clock, metrics::Registry& metrics, std::stop_token stop) {
+  std::optional<RenderLoop> render;
+  if (share != nullptr && rig.camera) {
+    render.emplace(
+        RenderLoopConfig{config.render.target_hz}, *rig.camera, [share] { return share->snapshot(); }, clock,
+        metrics);
+  }
+  Progress progress(o.json_progress, clock);
+  const auto on_pose = [&](const TrackedFrame& frame) {
+    progress.on_pose(frame.group);
+    if (render && share != nullptr) {
+      render->show_from(share->map_from_odom().map_from_odom * frame.group.odom_from_body);
+    }
+  };
+  const bool live = !recording.has_value();
+  Pipeline pipeline(chain, live ? Backpressure::kDropOldest : Backpressure::kWait, on_pose, metrics);
+  const auto push = [&](sensor::Measurement measurement) { pipeline.push(std::move(measurement)); };
+  Status result;
+  if (live) {
+    EDGESPLAT_TRY(auto input, LiveInput::open(config, rig, clock, push));
+    input->run(stop);
+    input->publish_counters(metrics);
+  } else {
+    ReplayInput input(*recording, o.speed, o.seconds, clock);
+    result = input.run(push, stop);
+  }
+  pipeline.finish();
+  return result;
+}
+
+/// Virtual time: every measurement is carried through all stages before the next one is read.
+Status run_lockstep(const Options& o, replay::ReplaySource& recording, SensingChain& chain,
+                    std::stop_token stop) {
+  VirtualClock clock(recording.begin());
+  ReplayInput input(recording, 0.0, o.seconds, clock);
+  const auto carry = [&](std::vector<ReadyGroup> groups) {
+    for (ReadyGroup& ready : groups) {
+      if (const auto frame = chain.track(std::move(ready))) chain.keyframe(*frame);
+    }
+  };
+  EDGESPLAT_TRY_STATUS(input.run(
+      [&](sensor::Measurement measurement) {
+        clock.advance_to(arrival_of(measurement));
+        carry(chain.sync(std::move(measurement)));
+      },
+      std::move(stop)));
+  carry(chain.flush());
+  return {};
+}
+
+void report_recording(const replay::ReplaySource& recording, metrics::Registry& metrics) {
+  const replay::ReplayReport report = recording.report();
+  metrics.counter("replay.measurements").add(report.measurements);
+  metrics.counter("replay.bytes_skipped").add(report.bytes_skipped);
+  metrics.counter("replay.packets_refused").add(report.packets_refused);
+  metrics.counter("replay.frames_refused").add(report.frames_refused);
+  metrics.counter("replay.points_dropped").add(report.points_dropped);
+  if (!report.complete) EDGESPLAT_LOG_WARN("replay", "recording incomplete", "why", report.why);
+}
+
+Status finish(const Options& o, const robot_config::RobotConfig& config,
+              const std::optional<RunFolder>& folder, const SensingChain& chain, MapShare* share,
+              metrics::Registry& metrics) {
+  auto cloud = std::make_shared<const gaussian::GaussianCloud>();
+  geometry::RigidTransform map_from_odom;
+  if (share != nullptr) {
+    if (!share->drain(from_seconds(config.server.drain_s))) {
+      EDGESPLAT_LOG_WARN("map", "server did not answer everything", "waited_s", config.server.drain_s);
+    }
+    share->publish_counters(metrics);
+    cloud = share->newest_snapshot();
+    map_from_odom = share->map_from_odom().map_from_odom;
+  }
+  chain.publish_counters(metrics);
+  const RunLog& log = chain.keyframes().log();
+  EDGESPLAT_LOG_INFO("robot", "run over", "poses", log.poses(), "span_s", log.span_s(), "gaussians",
+                     cloud->size());
+  if (!folder) return {};
+  EDGESPLAT_TRY_STATUS(folder->write_results(chain.keyframes(), *cloud, map_from_odom));
+  EDGESPLAT_TRY_STATUS(folder->write_metrics(metrics));
+  EDGESPLAT_LOG_INFO("robot", "run folder written", "path", o.out.string());
+  return {};
+}
+
+}  // namespace
+
+Status run_robot(const Options& o, std::stop_token stop) {
+  EDGESPLAT_TRY(const robot_config::RobotConfig config, load_config(o));
+  if (o.print_config) {
+    std::fputs(config::to_toml(config).c_str(), stdout);
+    return {};
+  }
+  std::optional<replay::ReplaySource> recording;
+  if (!o.replay.empty()) {
+    EDGESPLAT_TRY(recording, replay::ReplaySource::open(o.replay));
+  }
+  if (o.check_config && !recording && o.rig_file.empty()) return {};
+  EDGESPLAT_TRY(const sensor::Rig rig, load_rig(o, recording));
+  if (o.check_config) return {};
+
+  std::optional<RunFolder> folder;
+  if (!o.out.empty()) {
+    EDGESPLAT_TRY(folder, RunFolder::create(o.out, config, rig));
+  }
+  const SteadyClock clock;
+  metrics::Registry metrics;
+  std::unique_ptr<MapShare> share;
+  if (config.server.enabled) {
+    EDGESPLAT_TRY(share, MapShare::create(config, clock));
+  }
+  const auto sink = [&](std::shared_ptr<const map::Keyframe> keyframe) {
+    if (share) share->submit(std::move(keyframe));
+  };
+  EDGESPLAT_TRY(const auto chain, SensingChain::create(config, rig, sink, clock, metrics));
+  const Status run = o.lockstep
+                         ? run_lockstep(o, *recording, *chain, stop)
+                         : run_threads(o, config, rig, recording, *chain, share.get(), clock, metrics, stop);
+  if (recording) report_recording(*recording, metrics);
+  // What was mapped so far is kept even when the input failed.
+  EDGESPLAT_TRY_STATUS(finish(o, config, folder, *chain, share.get(), metrics));
+  return run;
+}
+
+}  // namespace edgesplat::app

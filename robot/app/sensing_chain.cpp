@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/app/sensing_chain.hpp"
+
+#include "common/log/log.hpp"
+
+#include <utility>
+
+namespace edgesplat::app {
+namespace {
+
+std::vector<ReadyGroup> stamp_groups(std::vector<sync::MeasureGroup> groups, HostTime now) {
+  std::vector<ReadyGroup> ready;
+  ready.reserve(groups.size());
+  for (sync::MeasureGroup& group : groups) ready.push_back({std::move(group), now});
+  return ready;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SensingChain>> SensingChain::create(const robot_config::RobotConfig& config,
+                                                           const sensor::Rig& rig,
+                                                           KeyframeStage::KeyframeSink sink,
+                                                           const Clock& work_clock,
+                                                           metrics::Registry& metrics) {
+  EDGESPLAT_TRY(auto tracker, tracking::Tracker::create(config.tracking, rig));
+  return std::unique_ptr<SensingChain>(
+      new SensingChain(config, rig, std::move(tracker), std::move(sink), work_clock, metrics));
+}
+
+SensingChain::SensingChain(const robot_config::RobotConfig& config, const sensor::Rig& rig,
+                           std::unique_ptr<tracking::Tracker> tracker, KeyframeStage::KeyframeSink sink,
+                           const Clock& work_clock, metrics::Registry& metrics)
+    : work_clock_(work_clock),
+      group_builder_(config.sync, rig),
+      tracker_(std::move(tracker)),
+      keyframe_stage_(config.keyframe, rig, std::move(sink), work_clock, metrics),
+      track_ms_(metrics.histogram("tracking.group_ms")),
+      refused_groups_(metrics.counter("tracking.refused_groups")) {}
+
+std::vector<ReadyGroup> SensingChain::sync(sensor::Measurement measurement) {
+  return stamp_groups(group_builder_.push(std::move(measurement)), work_clock_.now());
+}
+
+std::vector<ReadyGroup> SensingChain::flush() {
+  return stamp_groups(group_builder_.flush(), work_clock_.now());
+}
+
+std::optional<TrackedFrame> SensingChain::track(ReadyGroup ready) {
+  const HostTime start = work_clock_.now();
+  auto tracked = tracker_->track(ready.group);
+  const HostTime end = work_clock_.now();
+  if (!tracked) {
+    refused_groups_.add();
+    EDGESPLAT_LOG_WARN("tracking", "group refused", "why", tracked.error().context);
+    return std::nullopt;
+  }
+  TrackedFrame frame;
+  frame.group = std::move(*tracked);
+  frame.image = std::move(ready.group.image);
+  frame.points_in_group = static_cast<int>(ready.group.points.size());
+  frame.track_ms = to_seconds(end - start) * 1e3;
+  frame.latency_ms = to_seconds(end - ready.ready) * 1e3;
+  track_ms_.record(frame.track_ms);
+  return frame;
+}
+
+void SensingChain::publish_counters(metrics::Registry& metrics) const {
+  const sync::GroupCounters s = group_builder_.counters();
+  const std::pair<const char*, std::uint64_t> counted[] = {
+      {"sync.groups", s.groups},
+      {"sync.groups_without_image", s.groups_without_image},
+      {"sync.groups_without_points", s.groups_without_points},
+      {"sync.groups_without_imu", s.groups_without_imu},
+      {"sync.late_points", s.late_points},
+      {"sync.clamped_points", s.clamped_points},
+      {"sync.overflow_points", s.overflow_points},
+      {"sync.late_imu", s.late_imu},
+      {"sync.overflow_imu", s.overflow_imu},
+      {"sync.late_images", s.late_images},
+      {"sync.overflow_images", s.overflow_images},
+      {"sync.unused_images", s.unused_images},
+      {"sync.late_scans", s.late_scans},
+      {"sync.bad_values", s.bad_values},
+      {"sync.clock_changes", s.clock_changes},
+  };
+  for (const auto& [name, value] : counted) metrics.counter(name).add(value);
+  const tracking::TrackingCounters t = tracker_->counters();
+  const std::pair<const char*, std::int64_t> tracked[] = {
+      {"tracking.groups", t.groups},
+      {"tracking.coasted_groups", t.coasted_groups},
+      {"tracking.bad_points", t.bad_points},
+      {"tracking.out_of_range_points", t.out_of_range_points},
+      {"tracking.bad_imu_samples", t.bad_imu_samples},
+      {"tracking.imu_gaps", t.imu_gaps},
+      {"tracking.evicted_cells", t.evicted_cells},
+  };
+  for (const auto& [name, value] : tracked) metrics.counter(name).add(static_cast<std::uint64_t>(value));
+  metrics.gauge("tracking.map_bytes").set(static_cast<double>(t.map_bytes));
+  metrics.gauge("tracking.span_s").set(keyframe_stage_.log().span_s());
+  metrics.gauge("tracking.sum_ms").set(keyframe_stage_.log().track_sum_ms());
+  metrics.gauge("tracking.poses").set(static_cast<double>(keyframe_stage_.log().poses()));
+  metrics.gauge("map.coloured_points")
+      .set(static_cast<double>(keyframe_stage_.coloured_map().points().size()));
+}
+
+}  // namespace edgesplat::app

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "robot/app/keyframe_stage.hpp"
+#include "robot/config/robot_config.hpp"
+#include "robot/sync/group_builder.hpp"
+#include "robot/tracking/tracker.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace edgesplat::app {
+
+/// A group that waits to be tracked.
+struct ReadyGroup {
+  sync::MeasureGroup group;
+  HostTime ready{};  ///< when it was complete, on the work clock
+};
+
+/// The three algorithms between a measurement and a keyframe, wired but without threads: the lockstep run
+/// calls them one after the other, the live run gives each a worker. Each function belongs to one thread at a
+/// time.
+class SensingChain {
+ public:
+  /// kInvalidConfig from the tracker's checks.
+  static Result<std::unique_ptr<SensingChain>> create(const robot_config::RobotConfig& config,
+                                                      const sensor::Rig& rig,
+                                                      KeyframeStage::KeyframeSink sink,
+                                                      const Clock& work_clock, metrics::Registry& metrics);
+
+  [[nodiscard]] std::vector<ReadyGroup> sync(sensor::Measurement measurement);
+  [[nodiscard]] std::vector<ReadyGroup> flush();
+  /// Nothing for a group that tracking refused (counted and logged).
+  [[nodiscard]] std::optional<TrackedFrame> track(ReadyGroup ready);
+  void keyframe(const TrackedFrame& frame) { keyframe_stage_(frame); }
+
+  [[nodiscard]] const KeyframeStage& keyframes() const { return keyframe_stage_; }
+  /// Copies the modules' own counters into the registry; call when the stages stand still.
+  void publish_counters(metrics::Registry& metrics) const;
+
+ private:
+  SensingChain(const robot_config::RobotConfig& config, const sensor::Rig& rig,
+               std::unique_ptr<tracking::Tracker> tracker, KeyframeStage::KeyframeSink sink,
+               const Clock& work_clock, metrics::Registry& metrics);
+
+  const Clock& work_clock_;
+  sync::GroupBuilder group_builder_;
+  std::unique_ptr<tracking::Tracker> tracker_;
+  KeyframeStage keyframe_stage_;
+  metrics::Histogram& track_ms_;
+  metrics::Counter& refused_groups_;
+};
+
+}  // namespace edgesplat::app
