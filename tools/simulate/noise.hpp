@@ -29,6 +29,9 @@ enum class NoisePurpose : std::uint64_t {
   kArrival,
   kBodyMotion,
   kStreamFault,
+  kPlace,
+  kCrowd,
+  kCameraPixel,
 };
 
 /// A reproducible stream of random numbers: a pure function of (seed, purpose, index), so that work may be

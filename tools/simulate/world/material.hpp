@@ -29,7 +29,7 @@ enum class Pattern : std::uint8_t {
   kLamp,        ///< gives light
   kWindowView,  ///< a window of the house seen from inside: the landscape outside
   kPane,        ///< a window seen from outside: dark, mirrors the sky
-  kTunnelWall,  ///< painted wall with a band, marks every period_m and soot
+  kTunnelWall,  ///< painted vault: pale below a band, marks every period_m, soot
   kRoadMarks,   ///< asphalt with a dashed line along u in the middle of v
 };
 
@@ -40,8 +40,9 @@ struct Material {
   float period_m = 1.0F;
   float contrast = 0.1F;      ///< amplitude of the noise relative to the colour
   float reflectivity = 0.5F;  ///< at 905 nm, 0..1
-  float glow = 0.0F;          ///< radiance of a lamp's own light
   std::uint32_t seed = 0;
+  float glow = 0.0F;    ///< radiance of a lamp's own light
+  float line_m = 0.0F;  ///< kRoadMarks: v of the line; kTunnelWall: u of the vault's top
 };
 
 }  // namespace edgesplat::simulate

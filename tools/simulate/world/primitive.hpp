@@ -15,7 +15,7 @@ enum class Shape : std::uint8_t {
   kTaperedBox,  ///< box whose top face is scaled by `top_scale` and moved by `top_shift_m` along x
   kQuad,        ///< half_m.x() by half_m.y() in the local plane z = 0, seen from both sides
   kCylinder,    ///< radius half_m.x(), half length half_m.z() along local z, closed
-  kTube,        ///< the same without its ends
+  kTube,        ///< the same without its ends; a vault: its normal points to the axis
   kEllipsoid,   ///< half axes
   kCapsule,     ///< radius half_m.x() around a segment of half length half_m.z() along local z
 };

@@ -150,6 +150,7 @@ SurfacePoint surface_at(const Primitive& p, const Vector3d& p_in_world_m) {
       break;
   }
   s.uv_m = s.uv_m.cwiseMax(0.0);
+  if (p.shape == Shape::kTube) s.normal = -s.normal;
   if (!p.aligned) s.normal = p.local_from_world.transpose() * s.normal;
   return s;
 }
@@ -195,6 +196,7 @@ FacePoint face_point(const Primitive& p, std::uint32_t face, const Vector2d& uv)
       break;
   }
   out.p_in_world_m = p.to_world(out.p_in_world_m);
+  if (p.shape == Shape::kTube) out.normal = -out.normal;
   if (!p.aligned) out.normal = p.local_from_world.transpose() * out.normal;
   return out;
 }
