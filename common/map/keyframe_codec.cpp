@@ -18,7 +18,6 @@ enum class Tag : std::uint16_t { kCore = 1, kPoints = 2, kImage = 3, kCamera = 4
 
 constexpr std::size_t kHeader_bytes = 16;  // magic, version, section count, length, CRC32C
 constexpr std::size_t kCrcOffset_bytes = 12;
-constexpr std::size_t kSectionHeader_bytes = 6;
 constexpr std::size_t kMaxSections = 64;
 constexpr int kMaxImageEdge_px = 16384;
 
