@@ -39,35 +39,34 @@ end_everything() {
   children=()
 }
 
-# The robot prints one JSON line a second once its sockets are open.
-wait_until_ready() {
-  local waited=0
-  until [[ -s $out/logs/$1.out ]]; do
-    is_running "$1" || return 1
-    ((waited++ < 300)) || { say "$1 was not ready after 30 s"; return 1; }
+# wait_until_bound NAME UDP_PORT: until the program listens there.
+wait_until_bound() {
+  local name=$1 waited=0 port
+  port=$(printf ':%04X ' "$2")
+  until grep -q "$port" /proc/net/udp; do
+    is_running "$name" || return 1
+    ((waited++ < 300)) || { say "$name was not ready after 30 s"; return 1; }
     sleep 0.1
   done
 }
 
-# watch NAME TOTAL_S: a progress bar of seconds until the program ends.
+# watch_program NAME TOTAL_S: a progress bar of the robot's recorded seconds until the program NAME ends.
 watch_program() {
-  local name=$1 total=$2 began=$SECONDS elapsed
+  local name=$1 total=$2 line recorded=0 words=""
   while is_running "$name"; do
-    elapsed=$((SECONDS - began))
-    progress $((elapsed < total ? elapsed : total)) "$total" "$(last_progress)"
+    line=$(tail -n 1 "$out/logs/robot.out" 2>/dev/null || true)
+    [[ ! $line =~ \"recorded_s\":\ ([0-9]+) ]] || recorded=${BASH_REMATCH[1]}
+    [[ ! $line =~ \"poses\":\ ([0-9]+) ]] || words="s, ${BASH_REMATCH[1]} poses, $(per_second "${BASH_REMATCH[1]}") poses/s"
+    progress $((recorded < total ? recorded : total)) "$total" "$words"
     sleep 0.5
   done
 }
 
-# A few words from the robot's latest JSON line: its rate and how much it has mapped.
-last_progress() {
-  tail -n 1 "$out/logs/robot.out" 2>/dev/null | python3 -c '
-import json, sys
-try:
-    line = json.loads(sys.stdin.readline())
-except ValueError:
-    line = {}
-words = [f"{line[key]:g} {label}" for key, label in (("groups", "groups"), ("keyframes", "keyframes"),
-         ("gaussians", "Gaussians")) if isinstance(line.get(key), (int, float))]
-print(", ".join(words) or "s")'
+# What `edgesplat simulate --progress` says: "simulated 3.2 of 20.0 s in 4 s".
+simulate_filter() {
+  local line
+  while IFS= read -r line; do
+    [[ $line =~ ^simulated\ ([0-9]+)\.[0-9]+\ of\ ([0-9]+)\.[0-9]+\ s ]] || continue
+    progress "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}" "$(per_second "${BASH_REMATCH[1]}") simulated s/s"
+  done
 }

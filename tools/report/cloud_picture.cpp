@@ -124,7 +124,7 @@ TopView draw_top_view(const io::PointCloud& cloud, CutAbove cut, int longest_px)
   const int width = std::max(static_cast<int>(std::ceil(size_m.x() * px_per_m)), 1);
   const int height = std::max(static_cast<int>(std::ceil(size_m.y() * px_per_m)), 1);
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  const int point_px = cloud.points_m.size() * 4 < pixels ? 2 : 1;  // sparse maps would look like dust
+  const int point_px = cloud.points_m.size() < pixels ? 2 : 1;  // sparse maps would look like dust
   Canvas canvas(width, height);
   for (std::size_t i = 0; i < cloud.points_m.size(); ++i) {
     const Eigen::Vector3f& p = cloud.points_m[i];

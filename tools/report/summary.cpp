@@ -39,12 +39,12 @@ std::optional<double> realtime_factor(const RunFolder& run, double duration_s) {
   return duration_s / (work_ms / 1e3);
 }
 
-/// Datagrams that never came, by the gaps in the devices' counters.
+/// LiDAR datagrams that never arrived, by the gaps in the device's counters.
 std::optional<double> packets_lost(const nlohmann::json& metrics) {
   std::optional<double> sum;
   if (!metrics.is_object() || !metrics.contains("counters")) return sum;
   for (const auto& [name, value] : metrics["counters"].items()) {
-    if (!name.ends_with("packets_lost") && !name.ends_with("datagrams_lost")) continue;
+    if (!name.starts_with("livox.") || !name.ends_with(".lost")) continue;
     if (value.is_number()) sum = sum.value_or(0.0) + value.get<double>();
   }
   return sum;
@@ -97,11 +97,10 @@ Summary summarise(const RunFolder& run, const std::vector<Reference>& references
   s.track_ms_p95 = percentile(run.groups.numbers("track_ms"), 0.95);
   s.realtime_factor = realtime_factor(run, s.duration_s);
   s.packets_lost = packets_lost(run.robot_metrics);
-  s.gaussians = find_metric(run.robot_metrics, {"map.gaussians", "map.resident_gaussians"});
-  s.keyframes = find_metric(run.robot_metrics, {"keyframe.keyframes", "uplink.keyframes"});
-  s.bytes_up = find_metric(run.robot_metrics, {"uplink.bytes", "uplink.sent_bytes", "link.bytes_sent"});
-  s.bytes_down =
-      find_metric(run.robot_metrics, {"downlink.bytes", "downlink.received_bytes", "link.bytes_received"});
+  s.gaussians = find_metric(run.robot_metrics, {"map.gaussians"});
+  s.keyframes = find_metric(run.robot_metrics, {"keyframes.made"});
+  s.bytes_up = find_metric(run.robot_metrics, {"link.bytes_up"});
+  s.bytes_down = find_metric(run.robot_metrics, {"link.bytes_down"});
   s.robot_peak_rss_mb = peak_rss_mb(run.robot_metrics);
   s.server_peak_rss_mb = peak_rss_mb(run.server_metrics);
   if (!psnrs_db.empty()) {

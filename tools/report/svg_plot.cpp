@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t kMaxPoints = 1500;
 constexpr double kCharacterWidth = 6.4;  // of the page's 12 px font, on average
 constexpr double kLegendLine = 17.0;
+constexpr double kBelowFrame = 40.0;  // for the numbers and the name of the x axis
+constexpr double kLowestFrame = 130.0;
 
 /// Where the curves go inside the picture, and from which data range.
 struct Frame {
@@ -68,11 +70,12 @@ double draw_legend(const Plot& plot, std::string& svg) {
   return y;
 }
 
-Frame lay_out(const Plot& plot, double legend_bottom) {
-  Frame frame;
-  frame.top = legend_bottom + 10.0;
-  frame.right = plot.width - 12.0;
-  frame.bottom = plot.height - 40.0;
+struct DataRanges {
+  AxisRange x;
+  AxisRange y;
+};
+
+DataRanges ranges_of(const Plot& plot) {
   std::vector<const std::vector<double>*> xs;
   std::vector<const std::vector<double>*> ys;
   for (const Series& series : plot.series) {
@@ -87,9 +90,23 @@ Frame lay_out(const Plot& plot, double legend_bottom) {
     xs.push_back(&backdrop_x);
     ys.push_back(&backdrop_y);
   }
-  frame.x = range_of(xs, false);
-  frame.y = range_of(ys, plot.include_zero);
-  if (plot.equal_scales) equalise(frame);
+  return {range_of(xs, false), range_of(ys, plot.include_zero)};
+}
+
+Frame lay_out(const Plot& plot, double legend_bottom) {
+  const DataRanges ranges = ranges_of(plot);
+  Frame frame;
+  frame.top = legend_bottom + 10.0;
+  frame.right = plot.width - 12.0;
+  frame.bottom = plot.height - kBelowFrame;
+  frame.x = ranges.x;
+  frame.y = ranges.y;
+  if (plot.equal_scales) {
+    // A long, low shape gets a low frame instead of empty space above and below.
+    const double wanted = std::max(frame.width() * frame.y.length() / frame.x.length(), kLowestFrame);
+    frame.bottom = std::min(frame.bottom, frame.top + wanted);
+    equalise(frame);
+  }
   return frame;
 }
 
@@ -101,7 +118,7 @@ void draw_axes(const Plot& plot, const Frame& f, std::string& svg) {
     svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)", x, f.bottom + 15,
                        tick.label);
   }
-  for (const Tick& tick : ticks_of(f.y, static_cast<int>(f.height() / 40.0))) {
+  for (const Tick& tick : ticks_of(f.y, std::max(static_cast<int>(f.height() / 40.0), 3))) {
     const double y = f.py(tick.value);
     svg += fmt::format(R"(<line class="grid" x1="{1:.1f}" y1="{0:.1f}" x2="{2:.1f}" y2="{0:.1f}"/>)", y,
                        f.left, f.right);
@@ -110,12 +127,18 @@ void draw_axes(const Plot& plot, const Frame& f, std::string& svg) {
   }
   svg += fmt::format(R"(<rect class="axis" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)", f.left,
                      f.top, f.width(), f.height());
-  svg += fmt::format(R"(<text x="{:.1f}" y="{}" text-anchor="middle">{}</text>)", f.left + 0.5 * f.width(),
-                     plot.height - 6, escape_html(plot.x_label));
+  svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)",
+                     f.left + 0.5 * f.width(), f.bottom + kBelowFrame - 6.0, escape_html(plot.x_label));
   const double middle = f.top + 0.5 * f.height();
   svg += fmt::format(
       R"svg(<text x="12" y="{0:.1f}" text-anchor="middle" transform="rotate(-90 12 {0:.1f})">{1}</text>)svg",
       middle, escape_html(plot.y_label));
+}
+
+void draw_backdrop(const Backdrop& b, const Frame& f, std::string& svg) {
+  svg += fmt::format(
+      R"(<image x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" preserveAspectRatio="none" href="{}"/>)",
+      f.px(b.x_min), f.py(b.y_max), f.px(b.x_max) - f.px(b.x_min), f.py(b.y_min) - f.py(b.y_max), b.data_uri);
 }
 
 void draw_line(const Series& series, const Frame& f, std::string& svg) {
@@ -144,27 +167,23 @@ void draw_dots(const Series& series, const Frame& f, std::string& svg) {
 }  // namespace
 
 std::string draw(const Plot& plot) {
-  std::string svg = fmt::format(
-      R"(<svg viewBox="0 0 {0} {1}" role="img" aria-label="{2}"><text class="title" x="58" y="15">{2}</text>)",
-      plot.width, plot.height, escape_html(plot.title));
-  const double legend_bottom = plot.series.empty() ? 18.0 : draw_legend(plot, svg);
+  std::string body;
+  const double legend_bottom = plot.series.empty() ? 18.0 : draw_legend(plot, body);
   const Frame frame = lay_out(plot, legend_bottom);
-  if (plot.backdrop) {
-    const Backdrop& b = *plot.backdrop;
-    svg += fmt::format(
-        R"(<image x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" preserveAspectRatio="none" href="{}"/>)",
-        frame.px(b.x_min), frame.py(b.y_max), frame.px(b.x_max) - frame.px(b.x_min),
-        frame.py(b.y_min) - frame.py(b.y_max), b.data_uri);
-  }
-  draw_axes(plot, frame, svg);
+  draw_axes(plot, frame, body);
+  if (plot.backdrop) draw_backdrop(*plot.backdrop, frame, body);
   for (const Series& series : plot.series) {
     if (series.style == Series::Style::kLine) {
-      draw_line(series, frame, svg);
+      draw_line(series, frame, body);
     } else {
-      draw_dots(series, frame, svg);
+      draw_dots(series, frame, body);
     }
   }
-  return svg + "</svg>\n";
+  const std::string title = escape_html(plot.title);
+  return fmt::format(
+             R"(<svg viewBox="0 0 {0} {1:.0f}" role="img" aria-label="{2}"><text class="title" x="58" y="15">{2}</text>{3}</svg>)",
+             plot.width, frame.bottom + kBelowFrame, title, body) +
+         "\n";
 }
 
 }  // namespace edgesplat::report

@@ -16,6 +16,7 @@ struct Series {
   std::vector<double> x;
   std::vector<double> y;  ///< as long as x
   Style style = Style::kLine;
+  double width_px = 1.6;
 };
 
 /// A picture under the curves, its edges in the plot's units.
@@ -33,7 +34,8 @@ struct Plot {
   std::string y_label;
   std::vector<Series> series;
   std::optional<Backdrop> backdrop = std::nullopt;
-  bool equal_scales = false;  ///< one metre is as long on both axes
+  bool equal_scales =
+      false;  ///< one metre is as long on both axes; `height` is then the most that may be used
   bool include_zero = false;  ///< the y axis starts at or passes through 0
   int width = 520;
   int height = 300;

@@ -10,7 +10,7 @@ namespace edgesplat::report {
 namespace {
 
 Plot path_plot(const Reference& reference) {
-  Series truth{reference.name, kGreen, {}, {}};
+  Series truth{reference.name, kGreen, {}, {}, Series::Style::kLine, 5.0};  // to be seen under the estimate
   Series estimate{"estimate, aligned", kBlue, {}, {}};
   for (const accuracy::PosePair& pair : reference.pairs) {
     const Eigen::Vector3d aligned =
@@ -21,7 +21,7 @@ Plot path_plot(const Reference& reference) {
     estimate.y.push_back(aligned.y());
   }
   Series start{"start", kOrange, {truth.x.front()}, {truth.y.front()}, Series::Style::kDots};
-  Series end{"end", kRed, {truth.x.back()}, {truth.y.back()}, Series::Style::kDots};
+  Series end{"end", kPurple, {truth.x.back()}, {truth.y.back()}, Series::Style::kDots};
   Plot plot{"Path from above", "x (m)", "y (m)", {truth, estimate, start, end}};
   plot.equal_scales = true;
   plot.height = 380;
@@ -40,7 +40,6 @@ Plot error_plot(const Reference& reference) {
   }
   Plot plot{"Position error after alignment", "time (s)", "error (cm)", std::move(axes)};
   plot.include_zero = true;
-  plot.height = 380;
   return plot;
 }
 

@@ -55,7 +55,8 @@ TEST(WriteReport, AWholeRunGivesItsFigures) {
   EXPECT_EQ(summary["keyframes"], 40);
   EXPECT_EQ(summary["robot_peak_rss_mb"], 250);
   EXPECT_EQ(summary["server_peak_rss_mb"], 512);
-  EXPECT_TRUE(summary["bytes_up"].is_null());
+  EXPECT_EQ(summary["bytes_up"], 3000000);
+  EXPECT_TRUE(summary["bytes_down"].is_null());
   EXPECT_NEAR(summary["render_psnr_db"], 20 * std::log10(255.0 / 5.0),
               1.0);  // pictures differ by 5 everywhere
   EXPECT_EQ(summary["references"][0]["name"], "truth");
@@ -68,7 +69,7 @@ TEST(WriteReport, ThePageStandsAlone) {
   const std::string page = text_of_page(folder);
   for (const char* text : {"<h2>Trajectory</h2>", "<h2>Point map</h2>", "<h2>Camera and Gaussians</h2>",
                            "<h2>Times and rates</h2>", "<h2>Drops and losses</h2>", "<h2>Settings</h2>",
-                           "livox.packets_lost", "&lt;test &amp; rig&gt;"}) {
+                           "livox.points.lost", "&lt;test &amp; rig&gt;"}) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
   }
   for (const char* text : {"<script", "http", "nan", "inf\""}) {

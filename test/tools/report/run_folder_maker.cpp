@@ -103,7 +103,8 @@ Status write_pictures(const std::filesystem::path& folder) {
 }
 
 constexpr const char* kRobotMetrics = R"({
- "counters": {"livox.packets_lost": 7, "sync.late_points": 0, "tracking.coasted_groups": 2, "keyframe.keyframes": 40},
+ "counters": {"livox.points.lost": 6, "livox.imu.lost": 1, "sync.late_points": 0, "tracking.coasted_groups": 2, "keyframes.made": 40,
+   "link.bytes_up": 3000000},
  "gauges": {"map.gaussians": 52000},
  "histograms": {"tracking.group_ms": {"count": 200, "mean": 18.4, "min": 12.0, "p50": 18.1, "p95": 22.0, "p99": 33.0,
    "max": 36.0}},
