@@ -23,7 +23,7 @@ end_program() {
   unset "children[$name]"
   if [[ -n $signal ]]; then
     kill "-$signal" "$pid" 2>/dev/null || true
-    timeout 60 tail --pid="$pid" -f /dev/null || kill -KILL "$pid" 2>/dev/null || true
+    timeout 60 tail --pid="$pid" -s 0.1 -f /dev/null || kill -KILL "$pid" 2>/dev/null || true
   fi
   wait "$pid" || status=$?
   ((status != 0)) || return 0

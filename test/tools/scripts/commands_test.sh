@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The edgesplat authors
+# SPDX-License-Identifier: Apache-2.0
+# The commands of tools/ parse, explain themselves, refuse nonsense with exit code 2, and the demo starts, joins and
+# ends its programs (stand-ins here) as it should.   usage: commands_test.sh ROOT
+set -u
+root=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+expect() { # expect WHAT WANTED_STATUS COMMAND...
+  local what=$1 wanted=$2 status=0
+  shift 2
+  "$@" >"$work/stdout" 2>"$work/stderr" || status=$?
+  ((status == wanted)) && return 0
+  failures=$((failures + 1))
+  echo "$what: exit code $status, wanted $wanted"
+  tail -n 20 "$work/stderr"
+}
+expect_text() { # expect_text WHAT FILE PATTERN
+  grep -q -- "$3" "$2" && return 0
+  failures=$((failures + 1))
+  echo "$1: no '$3' in $2:"
+  tail -n 20 "$2"
+}
+
+for script in "$root"/tools/{setup,test,demo,edgesplat} "$root"/tools/lib/*.sh "$root"/.ci/run; do
+  expect "syntax of $script" 0 bash -n "$script"
+done
+for command in setup test demo; do
+  expect "$command --help" 0 "$root/tools/$command" --help
+  expect_text "$command --help" "$work/stdout" "usage: tools/$command"
+  expect "$command with an unknown option" 2 "$root/tools/$command" --no-such-option
+done
+expect "demo with a bad length" 2 "$root/tools/demo" --seconds soon
+
+# Stand-ins for the programs: the robot listens on its port and ends on SIGTERM, all note how they were called.
+mkdir "$work/bin"
+cat >"$work/bin/stand_in" <<'EOF'
+#!/usr/bin/env python3
+import os, signal, socket, sys, time
+name, arguments = os.path.basename(sys.argv[0]), sys.argv[1:]
+option = lambda key: arguments[arguments.index(key) + 1]
+with open(os.environ["CALLS"], "a") as calls:
+    calls.write(name + " " + " ".join(arguments) + "\n")
+if name == "edgesplat":
+    if arguments[0] in ("simulate", "inspect"):
+        open(option("--out" if arguments[0] == "simulate" else "--to"), "w").close()
+    sys.exit(0)
+if os.environ.get("FAILS") == name:
+    sys.exit(3)
+ended = []
+signal.signal(signal.SIGTERM, lambda *_: ended.append(1))
+listening = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+if "--points-port" in arguments:
+    listening.bind(("127.0.0.1", int(option("--points-port"))))
+while not ended and "--replay" not in arguments:
+    time.sleep(0.05)
+EOF
+chmod +x "$work/bin/stand_in"
+for name in edgesplat edgesplat-robot edgesplat-server; do ln -s stand_in "$work/bin/$name"; done
+export EDGESPLAT_BIN_DIR=$work/bin CALLS=$work/calls
+
+expect "demo" 0 "$root/tools/demo" --seconds 1 --out "$work/run"
+expect_text "demo" "$CALLS" "^edgesplat simulate --world corridor --seconds 1"
+expect_text "demo" "$CALLS" "^edgesplat-server --interface lo"
+expect_text "demo" "$CALLS" "^edgesplat-robot --live --rig"
+expect_text "demo" "$CALLS" "^edgesplat stream"
+expect_text "demo" "$CALLS" "^edgesplat report --run"
+expect "demo whose robot fails" 1 env FAILS=edgesplat-robot "$root/tools/demo" --seconds 1 --out "$work/run"
+expect_text "demo whose robot fails" "$work/stderr" "The demo failed: robot"
+mkdir -p "$work/scans" && : >"$work/scans/0.bin"
+expect "demo with scans" 0 "$root/tools/demo" --input "$work/scans" --out "$work/run"
+expect_text "demo with scans" "$CALLS" "^edgesplat-robot --replay $work/scans"
+expect "demo with a missing input" 2 "$root/tools/demo" --input "$work/nothing" --out "$work/run"
+mkdir "$work/empty"
+expect "demo with an empty folder" 2 "$root/tools/demo" --input "$work/empty" --out "$work/run"
+
+echo "$failures failures"
+exit $((failures > 0))
