@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/unique_fd.hpp"
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace edgesplat::test {
+
+/// A program started by a test; killed, if it still runs, at the end of the scope. Single-owner.
+class ChildProcess {
+ public:
+  /// `arguments[0]` is the program's path. A program that cannot be started ends with code 127.
+  explicit ChildProcess(const std::vector<std::string>& arguments);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  void signal(int number) const;
+  /// The exit code (128 + signal where one ended it), or nothing while it still runs after `timeout`.
+  std::optional<int> wait(std::chrono::milliseconds timeout);
+
+ private:
+  pid_t pid_ = -1;
+  UniqueFd pidfd_;
+  std::optional<int> code_;
+};
+
+}  // namespace edgesplat::test
