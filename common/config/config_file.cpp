@@ -37,9 +37,9 @@ std::string quoted(std::string_view text) {
 }
 
 void mark_as_override(Table& table) {
-  for (auto& entry : table) {
-    entry.second.line = 0;
-    if (auto* inside = std::get_if<Table>(&entry.second.value)) mark_as_override(*inside);
+  for (Entry& entry : table) {
+    entry.node.line = 0;
+    if (auto* inside = std::get_if<Table>(&entry.node.value)) mark_as_override(*inside);
   }
 }
 

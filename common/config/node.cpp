@@ -4,27 +4,28 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace edgesplat::config {
 
 const Node* find(const Table& table, std::string_view key) {
-  const auto found = std::find_if(table.begin(), table.end(), [&](const auto& e) { return e.first == key; });
-  return found == table.end() ? nullptr : &found->second;
+  const auto found = std::find_if(table.begin(), table.end(), [&](const Entry& e) { return e.key == key; });
+  return found == table.end() ? nullptr : &found->node;
 }
 
-void merge(Table& into, Table from) {
+void merge(Table& into, Table&& from) {
   for (auto& [key, node] : from) {
-    const auto found = std::find_if(into.begin(), into.end(), [&](const auto& e) { return e.first == key; });
+    const auto found = std::find_if(into.begin(), into.end(), [&](const Entry& e) { return e.key == key; });
     if (found == into.end()) {
-      into.emplace_back(std::move(key), std::move(node));
+      into.push_back({std::move(key), std::move(node)});
       continue;
     }
-    auto* old_table = std::get_if<Table>(&found->second.value);
+    auto* old_table = std::get_if<Table>(&found->node.value);
     auto* new_table = std::get_if<Table>(&node.value);
     if (old_table != nullptr && new_table != nullptr) {
       merge(*old_table, std::move(*new_table));
     } else {
-      found->second = std::move(node);
+      found->node = std::move(node);
     }
   }
 }

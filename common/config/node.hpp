@@ -25,14 +25,14 @@ struct Node {
 
 /// A struct, since clang refuses std::pair of a type that is not complete yet.
 struct Entry {
-  std::string first;  ///< key
-  Node second;
+  std::string key;
+  Node node;
 };
 
 /// The value at `key`, or null.
 [[nodiscard]] const Node* find(const Table& table, std::string_view key);
 /// Puts `from` into `into`: tables are merged, anything else is replaced.
-void merge(Table& into, Table from);
+void merge(Table& into, Table&& from);
 /// "a table", "a whole number", ...: for messages.
 [[nodiscard]] std::string_view kind_name(const Node& node);
 

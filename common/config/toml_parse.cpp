@@ -32,10 +32,10 @@ Node convert(const toml::node& from);
 Table convert_table(const toml::table& from) {
   Table out;
   out.reserve(from.size());
-  for (const auto& [key, value] : from) out.emplace_back(std::string(key.str()), convert(value));
+  for (const auto& [key, value] : from) out.push_back({std::string(key.str()), convert(value)});
   // toml++ sorts by key; people read files from the top.
   std::stable_sort(out.begin(), out.end(),
-                   [](const auto& a, const auto& b) { return a.second.line < b.second.line; });
+                   [](const Entry& a, const Entry& b) { return a.node.line < b.node.line; });
   return out;
 }
 

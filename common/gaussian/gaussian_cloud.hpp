@@ -34,7 +34,8 @@ struct GaussianCloud {
 
   [[nodiscard]] std::size_t size() const { return ids.size(); }
   [[nodiscard]] std::size_t sh_floats_each() const {
-    return static_cast<std::size_t>((sh_degree + 1) * (sh_degree + 1) * 3);
+    const auto bands = static_cast<std::size_t>(sh_degree + 1);
+    return 3 * bands * bands;
   }
   /// Every array has the length that ids and sh_degree ask for.
   [[nodiscard]] bool consistent() const;

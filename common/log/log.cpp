@@ -32,7 +32,7 @@ spdlog::level::level_enum to_spdlog(Level level) {
 
 /// The one place in the program that stands for stderr; made on first use.
 spdlog::logger& stderr_logger() {
-  static const std::unique_ptr<spdlog::logger> logger = [] {
+  static const std::unique_ptr<spdlog::logger> kLogger = [] {
     auto made =
         std::make_unique<spdlog::logger>("edgesplat", std::make_shared<spdlog::sinks::stderr_sink_mt>());
     made->set_pattern("%Y-%m-%dT%H:%M:%S.%e %L %v");
@@ -40,7 +40,7 @@ spdlog::logger& stderr_logger() {
     made->flush_on(spdlog::level::trace);
     return made;
   }();
-  return *logger;
+  return *kLogger;
 }
 
 bool needs_quotes(std::string_view text) {

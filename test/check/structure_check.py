@@ -3,22 +3,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """Holds the rules of ARCHITECTURE.md and CONTRIBUTING.md that a machine can check.
 
-usage: structure_check.py RULE [ROOT]      RULE: includes, sizes, headers, format, words
+usage: structure_check.py RULE [ROOT]      RULE: includes, mirrors, sizes, headers, format, words
 Prints one line a violation; exit code 1 where there is one.
 """
 import os
 import re
+import shutil
 import subprocess
 import sys
 
+from include_rules import include_problems
+
 SOURCE_ENDINGS = (".hpp", ".cpp", ".cu", ".cuh")
 MAX_LINES = 500
-# A folder may include those of a lower level, and itself.
-TOP_LEVELS = {"common": 0, "kernels": 1, "robot": 2, "server": 2, "tools": 3, "test": 4}
-COMMON_LEVELS = {"base": 0, "time": 1, "log": 1, "config": 1, "thread": 1, "geometry": 1, "metrics": 2, "sensor": 2,
-                 "gaussian": 2, "map": 3, "io": 4, "link": 4, "policy": 4}
-# Of one level, but a plain foundation for the rest of it.
-COMMON_EXCEPTIONS = {("log", "time"), ("config", "time"), ("thread", "time")}
+MAX_README_LINES = 30
+SKIPPED = 77  # what CTest knows as SKIP_RETURN_CODE
+# Test folders that mirror no folder of the tree.
+NOT_MIRRORED = ("test/support", "test/check", "test/integration", "test/fuzz", "test/bench", "test/tools/scripts")
 
 
 def tracked_files(root):
@@ -39,39 +40,26 @@ def read(root, name):
         return file.read()
 
 
-def include_violation(source, target):
-    """Why `source` must not include `target`, both paths from the root; None where it may."""
-    source_parts, target_parts = source.split("/"), target.split("/")
-    top, other = source_parts[0], target_parts[0]
-    if top not in TOP_LEVELS or other not in TOP_LEVELS or top == "test":
-        return None
-    if top != other:
-        if source.startswith("robot/drivers/") and other != "common":
-            return "drivers see common only"
-        return None if TOP_LEVELS[other] < TOP_LEVELS[top] else f"{top} must not include {other}"
-    if top == "common":
-        module, used = source_parts[1], target_parts[1]
-        if module == used or (module, used) in COMMON_EXCEPTIONS:
-            return None
-        if module not in COMMON_LEVELS or used not in COMMON_LEVELS:
-            return f"common/{module if module not in COMMON_LEVELS else used} has no level yet: add it to this check"
-        return None if COMMON_LEVELS[used] < COMMON_LEVELS[module] else f"common/{module} must not include common/{used}"
-    if source.startswith("robot/drivers/") and not target.startswith("robot/drivers/"):
-        return "drivers see common only"
-    if target_parts[1] == "app":
-        return None if source_parts[1] == "app" else "nothing includes an app folder"
-    return None
-
-
 def check_includes(root, files):
-    pattern = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
     for name in files:
-        if not name.endswith(SOURCE_ENDINGS):
+        if name.endswith(SOURCE_ENDINGS):
+            for line, why in include_problems(name, read(root, name)):
+                yield f"{name}:{line} includes {why}"
+            if name.endswith((".cu", ".cuh")) and not name.startswith(("kernels/", "test/kernels/")):
+                yield f"{name}: CUDA files live in kernels/ only"
+
+
+def check_mirrors(root, files):
+    """test/a/b tests a/b; the drivers' extra level would say nothing there."""
+    folders = {os.path.dirname(name) for name in files if not name.startswith("test/")}
+    for name in files:
+        folder = os.path.dirname(name)
+        if not name.endswith("/CMakeLists.txt") or not folder.startswith("test/") or folder.startswith(NOT_MIRRORED):
             continue
-        for target in pattern.findall(read(root, name)):
-            why = include_violation(name, target)
-            if why:
-                yield f"{name} includes {target}: {why}"
+        mirrored = folder.removeprefix("test/")
+        driver = mirrored.replace("/", "/drivers/", 1)
+        if not any(known == place or known.startswith(place + "/") for known in folders for place in (mirrored, driver)):
+            yield f"{folder} mirrors {mirrored}, which does not exist"
 
 
 def check_sizes(root, files):
@@ -80,6 +68,10 @@ def check_sizes(root, files):
             lines = read(root, name).count("\n")
             if lines > MAX_LINES:
                 yield f"{name} has {lines} lines, more than {MAX_LINES}: split it"
+        elif os.path.basename(name) == "README.md" and "/" in name and not name.startswith("docs/"):
+            lines = read(root, name).count("\n")
+            if lines > MAX_README_LINES:
+                yield f"{name} has {lines} lines, more than {MAX_README_LINES}"
         elif not name.startswith("docs/") and os.path.getsize(os.path.join(root, name)) > 1 << 20:
             yield f"{name} is larger than 1 MiB"
 
@@ -96,9 +88,22 @@ def check_headers(root, files):
             yield f"{name} lacks #pragma once"
 
 
+def formatter():
+    """clang-format 14: others break lines elsewhere."""
+    for name in ("clang-format-14", "clang-format"):
+        found = shutil.which(name)
+        if found and "version 14." in subprocess.run([found, "--version"], capture_output=True, text=True, check=False).stdout:
+            return found
+    return None
+
+
 def check_format(root, files):
+    program = formatter()
+    if program is None:
+        print("SKIPPED: clang-format 14 is not installed (tools/setup installs it)")
+        sys.exit(SKIPPED)
     sources = [name for name in files if name.endswith(SOURCE_ENDINGS)]
-    found = subprocess.run(["clang-format", "--dry-run", *sources], cwd=root, capture_output=True, text=True, check=False)
+    found = subprocess.run([program, "--dry-run", *sources], cwd=root, capture_output=True, text=True, check=False)
     names = re.findall(r"^(\S+?):\d+:\d+: (?:warning|error): code should be clang-formatted", found.stderr, re.MULTILINE)
     for name in sorted(set(names)):
         yield f"{name} is not formatted: clang-format -i {name}"
@@ -122,7 +127,7 @@ def check_words(root, files):
             yield f"{name} holds the marks of a merge conflict"
 
 
-RULES = {"includes": check_includes, "sizes": check_sizes, "headers": check_headers, "format": check_format,
+RULES = {"includes": check_includes, "mirrors": check_mirrors, "sizes": check_sizes, "headers": check_headers, "format": check_format,
          "words": check_words}
 
 
@@ -130,7 +135,10 @@ def main(arguments):
     if not arguments or arguments[0] not in RULES:
         sys.exit(__doc__)
     root = arguments[1] if len(arguments) > 1 else os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-    violations = list(RULES[arguments[0]](root, tracked_files(root)))
+    files = tracked_files(root)
+    if not any(name.endswith(SOURCE_ENDINGS) for name in files):
+        sys.exit(f"no sources under {root}: wrong folder?")
+    violations = list(RULES[arguments[0]](root, files))
     for line in violations:
         print(line)
     print(f"{arguments[0]}: {len(violations)} violations")

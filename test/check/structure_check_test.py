@@ -11,39 +11,6 @@ import structure_check
 SPDX = "// SPDX-FileCopyrightText: 2026 x\n// SPDX-License-Identifier: Apache-2.0\n"
 
 
-class IncludeRules(unittest.TestCase):
-    def refused(self, source, target):
-        self.assertIsNotNone(structure_check.include_violation(source, target), f"{source} -> {target}")
-
-    def allowed(self, source, target):
-        self.assertIsNone(structure_check.include_violation(source, target), f"{source} -> {target}")
-
-    def test_tiers(self):
-        self.allowed("robot/sync/a.cpp", "common/time/time.hpp")
-        self.allowed("robot/render/a.cpp", "kernels/splat/splat.hpp")
-        self.allowed("tools/desk/a.cpp", "robot/tracking/tracker.hpp")
-        self.allowed("test/x.cpp", "server/app/server.hpp")
-        self.refused("robot/map/a.cpp", "server/stream/stream.hpp")
-        self.refused("server/stream/a.cpp", "robot/map/map.hpp")
-        self.refused("common/io/a.cpp", "kernels/core/backend.hpp")
-        self.refused("kernels/core/a.cpp", "robot/sync/sync.hpp")
-
-    def test_common_levels(self):
-        self.allowed("common/io/a.cpp", "common/map/keyframe.hpp")
-        self.allowed("common/io/a.cpp", "common/io/b.hpp")
-        self.refused("common/base/a.cpp", "common/time/time.hpp")
-        self.refused("common/geometry/a.cpp", "common/sensor/rig.hpp")
-        self.refused("common/io/a.cpp", "common/link/transport.hpp")
-        self.refused("common/unheard_of/a.cpp", "common/base/result.hpp")
-
-    def test_drivers_and_apps(self):
-        self.allowed("robot/drivers/livox/a.cpp", "robot/drivers/livox/b.hpp")
-        self.refused("robot/drivers/livox/a.cpp", "robot/sync/measure_group.hpp")
-        self.refused("robot/drivers/livox/a.cpp", "kernels/core/backend.hpp")
-        self.refused("robot/sync/a.cpp", "robot/app/run.hpp")
-        self.allowed("robot/app/a.cpp", "robot/app/run.hpp")
-
-
 class FileRules(unittest.TestCase):
     def violations(self, rule, files):
         with tempfile.TemporaryDirectory() as root:
@@ -57,6 +24,25 @@ class FileRules(unittest.TestCase):
 
     def test_long_file(self):
         self.assertEqual(len(self.violations("sizes", {"common/a.cpp": "\n" * 501, "common/b.cpp": "\n" * 500})), 1)
+
+    def test_long_readme(self):
+        files = {"common/io/README.md": "\n" * 31, "common/map/README.md": "\n" * 30, "README.md": "\n" * 99}
+        self.assertEqual(len(self.violations("sizes", files)), 1)
+
+    def test_mirrors(self):
+        files = {"common/base/a.cpp": SPDX, "robot/drivers/livox/a.cpp": SPDX, "test/common/base/CMakeLists.txt": "",
+                 "test/common/CMakeLists.txt": "", "test/CMakeLists.txt": "", "test/robot/livox/CMakeLists.txt": "", "test/fuzz/CMakeLists.txt": "",
+                 "test/common/ghost/CMakeLists.txt": ""}
+        self.assertEqual(len(self.violations("mirrors", files)), 1)
+
+    def test_cuda_files_live_in_kernels(self):
+        files = {"robot/render/a.cu": SPDX, "kernels/splat/a.cu": SPDX}
+        self.assertEqual(len(self.violations("includes", files)), 1)
+
+    @unittest.skipUnless(structure_check.formatter(), "clang-format 14 is not installed")
+    def test_format(self):
+        files = {"common/a.cpp": SPDX + "int x;\n", "common/b.cpp": SPDX + "int   x  ;\n"}
+        self.assertEqual(len(self.violations("format", files)), 1)
 
     def test_headers(self):
         files = {"common/a.hpp": SPDX + "#pragma once\n", "common/b.hpp": SPDX, "common/c.cpp": "int x;\n"}
