@@ -18,4 +18,12 @@ enum class Backend : std::uint8_t { kCpu, kCuda };
 /// Whether this build contains CUDA code at all.
 [[nodiscard]] bool built_with_cuda();
 
+/// What can run here and now: the CPU, and CUDA where it is compiled in and the driver finds a device. Asks
+/// the driver each time; call it once at start.
+[[nodiscard]] std::vector<Backend> available_backends();
+
+/// "cpu", "cuda", or "auto" for the fastest that is available. Errors: kInvalidConfig for another name,
+/// kUnavailable with the reason (not compiled in, no device) where "cuda" cannot be had.
+[[nodiscard]] Result<Backend> choose_backend(std::string_view name);
+
 }  // namespace edgesplat::core

@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
+#include "kernels/splat/depth_order.hpp"
 #include "kernels/splat/project_backends.hpp"
 #include "kernels/splat/splat_one.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <bit>
 
 namespace edgesplat::splat {
 namespace {
@@ -43,18 +41,6 @@ void project_block(const GaussianSpans& g, const View& view, const RenderOptions
         break;
     }
   }
-}
-
-/// Depth order with ties by row, through 64-bit keys: positive floats sort as their bits do.
-std::vector<Splat> sorted_by_depth(const std::vector<Splat>& splats) {
-  std::vector<std::uint64_t> keys(splats.size());
-  for (std::size_t i = 0; i < splats.size(); ++i) {
-    keys[i] = static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(splats[i].depth_m)) << 32U | i;
-  }
-  tbb::parallel_sort(keys.begin(), keys.end());
-  std::vector<Splat> sorted(splats.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) sorted[i] = splats[keys[i] & 0xFFFFFFFFU];
-  return sorted;
 }
 
 }  // namespace

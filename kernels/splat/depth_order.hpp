@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/splat/project.hpp"
+
+#include <vector>
+
+namespace edgesplat::splat {
+
+/// The splats nearest first, ties in the order given: what every backend hands to the tiles.
+[[nodiscard]] std::vector<Splat> sorted_by_depth(const std::vector<Splat>& splats);
+
+}  // namespace edgesplat::splat
