@@ -62,8 +62,8 @@ Bvh::Bvh(std::span<const Bounds> boxes) {
 
 void Bvh::enclose(Node& node, const Bounds& box) {
   for (int i = 0; i < 3; ++i) {
-    node.lo_m[static_cast<std::size_t>(i)] = static_cast<float>(box.lo_m[i] - kMargin_m);
-    node.hi_m[static_cast<std::size_t>(i)] = static_cast<float>(box.hi_m[i] + kMargin_m);
+    node.lo_m[i] = static_cast<float>(box.lo_m[i] - kMargin_m);
+    node.hi_m[i] = static_cast<float>(box.hi_m[i] + kMargin_m);
   }
 }
 

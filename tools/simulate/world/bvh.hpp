@@ -29,11 +29,13 @@ class Bvh {
               Test&& test) const;
 
  private:
-  struct Node {  ///< 32 bytes; a leaf has count > 0 and owns order_[first .. first + count)
-    std::array<float, 3> lo_m;
-    std::uint32_t first;  ///< of an inner node: index of the left child; the right one follows it
-    std::array<float, 3> hi_m;
-    std::uint32_t count;
+  /// The fourth lane of the box is [0, 1]: with FloatRay's fourth lane it keeps `enter` at or above 0.
+  struct Node {
+    Eigen::Array4f lo_m{0.0F, 0.0F, 0.0F, 0.0F};
+    Eigen::Array4f hi_m{0.0F, 0.0F, 0.0F, 1.0F};
+    std::uint32_t first =
+        0;  ///< of a leaf: into order_; of an inner node: its left child, the right one follows
+    std::uint32_t count = 0;  ///< 0: an inner node
   };
   struct Item {
     Bounds box;
@@ -44,18 +46,14 @@ class Bvh {
   static void enclose(Node& node, const Bounds& box);
 
   struct FloatRay {
-    std::array<float, 3> o;
-    std::array<float, 3> inverse;
+    Eigen::Array4f o{0.0F, 0.0F, 0.0F, 0.0F};
+    Eigen::Array4f inverse{0.0F, 0.0F, 0.0F, 1e30F};
   };
   static float enter(const Node& node, const FloatRay& ray, float to_m) {
-    float t0 = 0.0F, t1 = to_m;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const float a = (node.lo_m[i] - ray.o[i]) * ray.inverse[i];
-      const float b = (node.hi_m[i] - ray.o[i]) * ray.inverse[i];
-      t0 = std::max(t0, std::min(a, b));
-      t1 = std::min(t1, std::max(a, b));
-    }
-    return t0 <= t1 ? t0 : kMiss;
+    const Eigen::Array4f a = (node.lo_m - ray.o) * ray.inverse;
+    const Eigen::Array4f b = (node.hi_m - ray.o) * ray.inverse;
+    const float first = a.min(b).maxCoeff(), last = a.max(b).minCoeff();
+    return first <= std::min(last, to_m) ? first : kMiss;
   }
   static constexpr float kMiss = 3e38F;
   std::vector<Node> nodes_;
@@ -66,11 +64,11 @@ template <typename Test>
 double Bvh::walk(const Eigen::Vector3d& origin_m, const Eigen::Vector3d& direction, double to_m,
                  Test&& test) const {
   if (nodes_.empty()) return to_m;
-  FloatRay ray{};
+  FloatRay ray;
   for (int i = 0; i < 3; ++i) {
     const double d = std::abs(direction[i]) < 1e-12 ? std::copysign(1e-12, direction[i]) : direction[i];
-    ray.o[static_cast<std::size_t>(i)] = static_cast<float>(origin_m[i]);
-    ray.inverse[static_cast<std::size_t>(i)] = static_cast<float>(1.0 / d);
+    ray.o[i] = static_cast<float>(origin_m[i]);
+    ray.inverse[i] = static_cast<float>(1.0 / d);
   }
   struct Pending {
     std::uint32_t node;

@@ -77,6 +77,7 @@ MoverBody make_car(std::uint64_t seed) {
   body.kind = MoverBody::Kind::kCar;
   body.height_m = 1.43;
   body.reach_m = 2.45;
+  body.width_m = 2.35;
   body.rigid_parts = car_parts();
   const auto& paint = kPaints[draw.bits() % 6];
   const Rgb colour(paint[0], paint[1], paint[2]);
@@ -96,15 +97,16 @@ MoverBody make_car(std::uint64_t seed) {
   return body;
 }
 
-void pose_car(const MoverBody& body, const Stance& stance, PartBuffer& out) {
+Parts pose_car(const MoverBody& body, const Stance& stance) {
+  Parts out = body.rigid_parts;
   Eigen::Matrix3d world_from_car;
   world_from_car << stance.forward.x(), -stance.forward.y(), 0.0, stance.forward.y(), stance.forward.x(), 0.0,
       0.0, 0.0, 1.0;
-  for (Primitive part : body.rigid_parts) {
+  for (Primitive& part : out) {
     part.centre_m = stance.foot_m + world_from_car * part.centre_m;
     part.rotate(world_from_car * part.local_from_world.transpose());
-    out.add(part);
   }
+  return out;
 }
 
 }  // namespace edgesplat::simulate

@@ -37,27 +37,23 @@ Stance Crowd::stance(std::size_t mover, double time_s) const {
   return tracks_[member.track].at(member.start_m, time_s);
 }
 
-MoverBall Crowd::ball(std::size_t mover, const Stance& stance) const {
-  const MoverBody& body = members_[mover].body;
-  return {stance.foot_m + Eigen::Vector3d(0, 0, body.height_m / 2.0), body.reach_m};
+MoverBall Crowd::ball(std::size_t mover, double time_s) const {
+  const Member& member = members_[mover];
+  return {tracks_[member.track].foot_m(member.start_m, time_s) +
+              Eigen::Vector3d(0, 0, member.body.height_m / 2.0),
+          member.body.reach_m, member.body.width_m};
 }
 
-void Crowd::pose(std::size_t mover, const Stance& stance, PartBuffer& out) const {
+Parts Crowd::pose(std::size_t mover, const Stance& stance) const {
   const MoverBody& body = members_[mover].body;
-  if (body.kind == MoverBody::Kind::kCar) {
-    pose_car(body, stance, out);
-  } else {
-    pose_pedestrian(body, stance, out);
-  }
+  return body.kind == MoverBody::Kind::kCar ? pose_car(body, stance) : pose_pedestrian(body, stance);
 }
 
 PosedCrowd::PosedCrowd(const Crowd& crowd, double time_s) : crowd_(crowd) {
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     stances_.push_back(crowd.stance(i, time_s));
-    balls_.push_back(crowd.ball(i, stances_.back()));
-    PartBuffer buffer;
-    crowd.pose(i, stances_.back(), buffer);
-    parts_.emplace_back(buffer.parts().begin(), buffer.parts().end());
+    balls_.push_back(crowd.ball(i, time_s));
+    parts_.push_back(crowd.pose(i, stances_.back()));
   }
 }
 

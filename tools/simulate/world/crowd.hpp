@@ -10,10 +10,11 @@
 
 namespace edgesplat::simulate {
 
-/// A ball that holds a mover.
+/// A ball and an upright cylinder around one centre that both hold a mover.
 struct MoverBall {
   Eigen::Vector3d centre_m;
   double radius_m = 1.0;
+  double width_m = 0.6;
 };
 
 /// Everybody who moves: a pure function of seed and time. Immutable, thread-safe.
@@ -24,8 +25,8 @@ class Crowd {
   [[nodiscard]] std::size_t size() const { return members_.size(); }
   [[nodiscard]] const MoverBody& body(std::size_t mover) const { return members_[mover].body; }
   [[nodiscard]] Stance stance(std::size_t mover, double time_s) const;
-  [[nodiscard]] MoverBall ball(std::size_t mover, const Stance& stance) const;
-  void pose(std::size_t mover, const Stance& stance, PartBuffer& out) const;
+  [[nodiscard]] MoverBall ball(std::size_t mover, double time_s) const;
+  [[nodiscard]] Parts pose(std::size_t mover, const Stance& stance) const;
 
  private:
   struct Member {
@@ -46,12 +47,8 @@ class CrowdAt {
   [[nodiscard]] std::size_t size() const { return crowd_.size(); }
   [[nodiscard]] const MoverBody& body(std::size_t mover) const { return crowd_.body(mover); }
   [[nodiscard]] Stance stance(std::size_t mover) const { return crowd_.stance(mover, time_s_); }
-  [[nodiscard]] MoverBall ball(std::size_t mover) const { return crowd_.ball(mover, stance(mover)); }
-  [[nodiscard]] std::span<const Primitive> parts(std::size_t mover, PartBuffer& buffer) const {
-    buffer.clear();
-    crowd_.pose(mover, stance(mover), buffer);
-    return buffer.parts();
-  }
+  [[nodiscard]] MoverBall ball(std::size_t mover) const { return crowd_.ball(mover, time_s_); }
+  [[nodiscard]] Parts parts(std::size_t mover) const { return crowd_.pose(mover, stance(mover)); }
 
  private:
   const Crowd& crowd_;
@@ -66,15 +63,13 @@ class PosedCrowd {
   [[nodiscard]] const MoverBody& body(std::size_t mover) const { return crowd_.body(mover); }
   [[nodiscard]] const Stance& stance(std::size_t mover) const { return stances_[mover]; }
   [[nodiscard]] const MoverBall& ball(std::size_t mover) const { return balls_[mover]; }
-  [[nodiscard]] std::span<const Primitive> parts(std::size_t mover, PartBuffer& /*buffer*/) const {
-    return parts_[mover];
-  }
+  [[nodiscard]] const Parts& parts(std::size_t mover) const { return parts_[mover]; }
 
  private:
   const Crowd& crowd_;
   std::vector<Stance> stances_;
   std::vector<MoverBall> balls_;
-  std::vector<std::vector<Primitive>> parts_;
+  std::vector<Parts> parts_;
 };
 
 }  // namespace edgesplat::simulate

@@ -16,20 +16,28 @@ LaneTrack::LaneTrack(const Lane& lane)
   length_m_ = spacing_m_ * static_cast<double>(points_m_.size() - 1);
 }
 
-Stance LaneTrack::at(double start_m, double time_s) const {
-  const double travelled_m = speed_mps_ * time_s;
-  double s = std::fmod(start_m + travelled_m, length_m_);
-  if (s < 0.0) s += length_m_;
+LaneTrack::Place LaneTrack::place(double start_m, double time_s) const {
+  double s = start_m + speed_mps_ * time_s;
+  s -= length_m_ * std::floor(s / length_m_);
   const double x = s / spacing_m_;
   const auto i = std::min(static_cast<std::size_t>(x), points_m_.size() - 2);
-  const Eigen::Vector3d step = points_m_[i + 1] - points_m_[i];
+  return {i, x - static_cast<double>(i)};
+}
+
+Eigen::Vector3d LaneTrack::foot_m(double start_m, double time_s) const {
+  const auto [i, fraction] = place(start_m, time_s);
+  return points_m_[i] + fraction * (points_m_[i + 1] - points_m_[i]);
+}
+
+Stance LaneTrack::at(double start_m, double time_s) const {
+  const auto [i, fraction] = place(start_m, time_s);
   Stance stance;
-  stance.foot_m = points_m_[i] + (x - static_cast<double>(i)) * step;
+  stance.foot_m = points_m_[i] + fraction * (points_m_[i + 1] - points_m_[i]);
   // The heading comes from points farther apart, so that it turns evenly.
   const std::size_t behind = i >= 3 ? i - 3 : 0, ahead = std::min(i + 4, points_m_.size() - 1);
-  stance.forward =
-      (points_m_[ahead] - points_m_[behind]).head<2>().normalized() * (speed_mps_ < 0.0 ? -1.0 : 1.0);
-  stance.travelled_m = std::abs(travelled_m);
+  const double sign = speed_mps_ < 0.0 ? -1.0 : 1.0;
+  stance.forward = sign * (points_m_[ahead] - points_m_[behind]).head<2>().normalized();
+  stance.travelled_m = std::abs(speed_mps_ * time_s);
   return stance;
 }
 

@@ -19,9 +19,16 @@ class LaneTrack {
   explicit LaneTrack(const Lane& lane);
   /// The mover that is `start_m` along the lane at time 0.
   [[nodiscard]] Stance at(double start_m, double time_s) const;
+  /// at().foot_m alone, several times faster.
+  [[nodiscard]] Eigen::Vector3d foot_m(double start_m, double time_s) const;
   [[nodiscard]] double length_m() const { return length_m_; }
 
  private:
+  struct Place {
+    std::size_t index;
+    double fraction;
+  };
+  [[nodiscard]] Place place(double start_m, double time_s) const;
   std::vector<Eigen::Vector3d> points_m_;  ///< one every spacing_m_; a closed lane ends with its first point
   double spacing_m_ = 0.1;
   double length_m_ = 0.0;

@@ -19,6 +19,11 @@ constexpr double kSunLift_m = 0.01;
 bool meets(const MoverBall& ball, const Vector3d& origin_m, const Vector3d& direction, double to_m) {
   const Vector3d to_centre = ball.centre_m - origin_m;
   const double along = to_centre.dot(direction);
+  // From above: does the line pass the upright cylinder? Most rays are nearly level, so this tells most
+  // apart.
+  const double aside = to_centre.x() * direction.y() - to_centre.y() * direction.x();
+  const double level2 = direction.head<2>().squaredNorm();
+  if (aside * aside > ball.width_m * ball.width_m * level2) return false;
   const double off2 = to_centre.squaredNorm() - along * along;
   return off2 < ball.radius_m * ball.radius_m && along > -ball.radius_m && along < to_m + ball.radius_m;
 }
@@ -56,10 +61,9 @@ float car_shade(const Stance& stance, const FacePoint& at) {
 
 template <typename Movers>
 bool sun_blocked(const Movers& movers, const Vector3d& from_m, const Vector3d& towards) {
-  PartBuffer buffer;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     if (!meets(movers.ball(i), from_m, towards, kFarthestRange_m)) continue;
-    for (const Primitive& part : movers.parts(i, buffer))
+    for (const Primitive& part : movers.parts(i))
       if (intersect(part, from_m, towards, 0.0, kFarthestRange_m) < kFarthestRange_m) return true;
   }
   return false;
@@ -70,10 +74,9 @@ bool sun_blocked(const Movers& movers, const Vector3d& from_m, const Vector3d& t
 template <typename Movers>
 std::optional<MoverHit> nearest_mover(const Movers& movers, const Ray& ray, double to_m) {
   std::optional<MoverHit> best;
-  PartBuffer buffer;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     if (!meets(movers.ball(i), ray.origin_m, ray.direction, to_m)) continue;
-    const std::span<const Primitive> parts = movers.parts(i, buffer);
+    const Parts& parts = movers.parts(i);
     for (std::size_t k = 0; k < parts.size(); ++k) {
       const double t = intersect(parts[k], ray.origin_m, ray.direction, kNearestRange_m, to_m);
       if (t >= to_m) continue;

@@ -142,9 +142,7 @@ void add_parked_car(Scene& s, const Eigen::Vector3d& foot_m, const Eigen::Vector
   const MoverBody car = make_car(seed);
   const auto first = static_cast<std::uint32_t>(s.materials.size());
   s.materials.insert(s.materials.end(), car.materials.begin(), car.materials.end());
-  PartBuffer parts;
-  pose_car(car, {foot_m, forward, 0.0}, parts);
-  for (Primitive part : parts.parts()) {
+  for (Primitive part : pose_car(car, {foot_m, forward, 0.0})) {
     part.material += first;
     s.add(part);
   }

@@ -54,26 +54,26 @@ Vector3d swing(const Vector3d& top, double length, double angle) {
   return top + length * Vector3d(std::sin(angle), 0.0, -std::cos(angle));
 }
 
-void add_leg(const Placing& place, double h, double side, double phase, PartBuffer& out) {
+void add_leg(const Placing& place, double h, double side, double phase, Parts& out) {
   const Vector3d hip(0.0, side * 0.055 * h, 0.515 * h);
   const double thigh = 0.42 * std::sin(phase);
   const double knee_bend = 0.12 + 0.75 * std::max(0.0, std::cos(phase));  // bent while it swings forwards
   const Vector3d knee = swing(hip, 0.245 * h, thigh);
   const Vector3d ankle = swing(knee, 0.225 * h, thigh - knee_bend);
-  out.add(limb(place, hip, knee, 0.045 * h, kTrousers));
-  out.add(limb(place, knee, ankle, 0.031 * h, kTrousers));
+  out.push_back(limb(place, hip, knee, 0.045 * h, kTrousers));
+  out.push_back(limb(place, knee, ankle, 0.031 * h, kTrousers));
   const Vector3d heel = ankle + Vector3d(-0.02 * h, 0, -0.015 * h);
-  out.add(limb(place, heel, heel + Vector3d(0.105 * h, 0, -0.004 * h), 0.025 * h, kShoes));
+  out.push_back(limb(place, heel, heel + Vector3d(0.105 * h, 0, -0.004 * h), 0.025 * h, kShoes));
 }
 
-void add_arm(const Placing& place, double h, double side, double phase, PartBuffer& out) {
+void add_arm(const Placing& place, double h, double side, double phase, Parts& out) {
   const Vector3d shoulder(0.0, side * 0.112 * h, 0.80 * h);
   const double upper = 0.38 * std::sin(phase);
   const Vector3d elbow = swing(shoulder, 0.165 * h, upper) + Vector3d(0, side * 0.012 * h, 0);
   const Vector3d wrist = swing(elbow, 0.145 * h, upper + 0.35 + 0.2 * std::sin(phase));
-  out.add(limb(place, shoulder, elbow, 0.029 * h, kTop));
-  out.add(limb(place, elbow, wrist, 0.024 * h, kTop));
-  out.add(ball(place, wrist + Vector3d(0.01, 0, -0.03 * h), {0.024 * h, 0.018 * h, 0.045 * h}, kSkin));
+  out.push_back(limb(place, shoulder, elbow, 0.029 * h, kTop));
+  out.push_back(limb(place, elbow, wrist, 0.024 * h, kTop));
+  out.push_back(ball(place, wrist + Vector3d(0.01, 0, -0.03 * h), {0.024 * h, 0.018 * h, 0.045 * h}, kSkin));
 }
 
 Rgb cloth_colour(NoiseStream& draw, float brightest) {
@@ -92,6 +92,7 @@ MoverBody make_pedestrian(std::uint64_t seed) {
   body.height_m = 1.60 + 0.28 * draw.uniform();
   body.gait_phase = 2.0 * std::numbers::pi * draw.uniform();
   body.reach_m = 0.62 * body.height_m;
+  body.width_m = 0.37 * body.height_m;
   const auto number = [&] { return static_cast<std::uint32_t>(draw.bits() >> 32U); };
   const auto tone = static_cast<float>(draw.uniform());
   const Rgb skin = Rgb(0.62F, 0.38F, 0.27F) * (1.0F - 0.7F * tone);
@@ -110,7 +111,9 @@ MoverBody make_pedestrian(std::uint64_t seed) {
   return body;
 }
 
-void pose_pedestrian(const MoverBody& body, const Stance& stance, PartBuffer& out) {
+Parts pose_pedestrian(const MoverBody& body, const Stance& stance) {
+  Parts out;
+  out.reserve(20);
   const double h = body.height_m;
   const double phase = body.gait_phase + 2.0 * std::numbers::pi * stance.travelled_m / (kStrideOfHeight * h);
   Placing place;
@@ -122,14 +125,15 @@ void pose_pedestrian(const MoverBody& body, const Stance& stance, PartBuffer& ou
   add_leg(place, h, -1.0, phase + std::numbers::pi, out);
   add_arm(place, h, 1.0, phase + std::numbers::pi, out);
   add_arm(place, h, -1.0, phase, out);
-  out.add(ball(place, {0, 0, 0.54 * h}, {0.068 * h, 0.098 * h, 0.085 * h}, kTrousers));
-  out.add(ball(place, {0, 0, 0.69 * h}, {0.072 * h, 0.108 * h, 0.170 * h}, kTop));
-  out.add(limb(place, {0, -0.09 * h, 0.805 * h}, {0, 0.09 * h, 0.805 * h}, 0.040 * h, kTop));
-  out.add(limb(place, {0, 0, 0.82 * h}, {0.006 * h, 0, 0.87 * h}, 0.032 * h, kSkin));
-  out.add(ball(place, {0.012 * h, 0, 0.925 * h}, {0.055 * h, 0.043 * h, 0.068 * h}, kSkin));
-  out.add(ball(place, {-0.006 * h, 0, 0.942 * h}, {0.058 * h, 0.048 * h, 0.062 * h}, kHair));
+  out.push_back(ball(place, {0, 0, 0.54 * h}, {0.068 * h, 0.098 * h, 0.085 * h}, kTrousers));
+  out.push_back(ball(place, {0, 0, 0.69 * h}, {0.072 * h, 0.108 * h, 0.170 * h}, kTop));
+  out.push_back(limb(place, {0, -0.09 * h, 0.805 * h}, {0, 0.09 * h, 0.805 * h}, 0.040 * h, kTop));
+  out.push_back(limb(place, {0, 0, 0.82 * h}, {0.006 * h, 0, 0.87 * h}, 0.032 * h, kSkin));
+  out.push_back(ball(place, {0.012 * h, 0, 0.925 * h}, {0.055 * h, 0.043 * h, 0.068 * h}, kSkin));
+  out.push_back(ball(place, {-0.006 * h, 0, 0.942 * h}, {0.058 * h, 0.048 * h, 0.062 * h}, kHair));
   if (body.materials[kBag].seed % 3 == 0)
-    out.add(ball(place, {-0.105 * h, 0, 0.70 * h}, {0.065 * h, 0.085 * h, 0.125 * h}, kBag));
+    out.push_back(ball(place, {-0.105 * h, 0, 0.70 * h}, {0.065 * h, 0.085 * h, 0.125 * h}, kBag));
+  return out;
 }
 
 }  // namespace edgesplat::simulate

@@ -82,8 +82,7 @@ struct Place {
   }
   template <typename Movers>
   [[nodiscard]] static std::uint32_t movers_material(const Movers& movers, const Hit& hit) {
-    PartBuffer buffer;
-    return movers.parts(hit.mover - 1U, buffer)[hit.surface / kFacesPerPrimitive].material;
+    return movers.parts(hit.mover - 1U)[hit.surface / kFacesPerPrimitive].material;
   }
 };
 
