@@ -23,6 +23,7 @@ using Eigen::Vector3f;
 constexpr double kGrazing = 0.35;
 /// A texture is never averaged over more than this many pixel widths along the slope.
 constexpr double kLongestFootprint = 5.0;
+constexpr float kShadeEdge = 0.08F;  ///< jump of the movers' shadow between pixels
 constexpr double kDepthEdge = 0.03;  ///< relative jump of range within one surface number
 constexpr std::array<std::array<double, 2>, 4> kSubpixels{
     {{-0.25, -0.25}, {0.25, -0.25}, {-0.25, 0.25}, {0.25, 0.25}}};
@@ -42,7 +43,8 @@ class Painter {
         width_(view.camera.width_px),
         height_(view.camera.height_px),
         directions_(count()),
-        hits_(count()) {}
+        hits_(count()),
+        shades_(count(), 1.0F) {}
 
   CameraPicture paint() {
     CameraPicture picture;
@@ -80,6 +82,7 @@ class Painter {
       const std::optional<Hit> hit = world_.cast(ray(direction), Visibility::kEverything);
       hits_[index(x, y)] = hit;
       if (!hit) continue;
+      shades_[index(x, y)] = world_.mover_shade(ray(direction), *hit);
       *picture.depth.pixel(x, y) = static_cast<float>(hit->range_m * direction.z());
       *picture.movers.pixel(x, y) = static_cast<std::uint8_t>(std::min<int>(hit->mover, 255));
     }
@@ -91,7 +94,7 @@ class Painter {
       const std::optional<Hit>& hit = hits_[index(x, y)];
       Sample pixel;
       if (!needs_more(x, y)) {
-        pixel = sample(ray(directions_[index(x, y)]), hit, pitch(x, y));
+        pixel = still_sample(ray(directions_[index(x, y)]), hit, {pitch(x, y), shades_[index(x, y)]});
       } else {
         for (const auto& [dx, dy] : kSubpixels) {
           const Vector3d direction =
@@ -116,9 +119,19 @@ class Painter {
       s.clean = world_.radiance(ray, behind, width_m, Visibility::kStaticOnly);
       return s;
     }
-    s.clean =
-        world_.radiance(ray, hit, hit ? footprint_m(ray, *hit, pitch_rad) : 0.0, Visibility::kStaticOnly);
-    s.full = hit ? Vector3f(s.clean * world_.mover_shade(ray, *hit)) : s.clean;
+    return still_sample(ray, hit, {pitch_rad, hit ? world_.mover_shade(ray, *hit) : 1.0F});
+  }
+
+  struct StillPoint {
+    double pitch_rad;
+    float shade;  ///< light that movers leave
+  };
+  [[nodiscard]] Sample still_sample(const Ray& ray, const std::optional<Hit>& hit,
+                                    const StillPoint& at) const {
+    Sample s;
+    const double width_m = hit ? footprint_m(ray, *hit, at.pitch_rad) : 0.0;
+    s.clean = world_.radiance(ray, hit, width_m, Visibility::kStaticOnly);
+    s.full = s.clean * at.shade;
     return s;
   }
 
@@ -143,14 +156,16 @@ class Painter {
     if (here &&
         (here->mover != 0 || std::abs(here->normal.dot(rotation_ * directions_[index(x, y)])) < kGrazing))
       return true;
-    return differs(here, x - 1, y) || differs(here, x + 1, y) || differs(here, x, y - 1) ||
-           differs(here, x, y + 1);
+    const float shade = shades_[index(x, y)];
+    return differs(here, shade, x - 1, y) || differs(here, shade, x + 1, y) ||
+           differs(here, shade, x, y - 1) || differs(here, shade, x, y + 1);
   }
-  [[nodiscard]] bool differs(const std::optional<Hit>& here, int x, int y) const {
+  [[nodiscard]] bool differs(const std::optional<Hit>& here, float shade_here, int x, int y) const {
     if (x < 0 || y < 0 || x >= width_ || y >= height_) return false;
     const std::optional<Hit>& there = hits_[index(x, y)];
     if (here.has_value() != there.has_value()) return true;
     if (!here) return false;
+    if (std::abs(shades_[index(x, y)] - shade_here) > kShadeEdge) return true;
     return here->surface != there->surface || here->mover != there->mover ||
            std::abs(here->range_m - there->range_m) >
                kDepthEdge * here->range_m + 0.3 * (here->range_m > 8.0);
@@ -163,6 +178,7 @@ class Painter {
   int height_;
   std::vector<Vector3d> directions_;  ///< of the pixels' centres, camera frame
   std::vector<std::optional<Hit>> hits_;
+  std::vector<float> shades_;  ///< light that movers leave at the pixels' centres
 };
 
 }  // namespace

@@ -101,7 +101,7 @@ void furnish_stretch(Scene& s, const Wall& wall, const Fittings& with, const Spo
 }
 
 void furnish(Scene& s, const std::array<Wall, 8>& walls, const Fittings& with, std::uint64_t seed) {
-  constexpr double kStretch_m = 2.9;
+  constexpr double kStretch_m = 2.3;
   std::uint32_t kind = static_cast<std::uint32_t>(mix_bits(seed) % 9);
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const bool outer = i % 2 == 0;
@@ -128,7 +128,7 @@ void add_lamps(Scene& s, const Polyline& centre_line) {
     const Eigen::Vector3d border(0.03, 0.03, 0.0);
     s.add_box(at - half - Eigen::Vector3d(0, 0, 0.045), at + half, glow);
     s.add_box(at - half - border - Eigen::Vector3d(0, 0, 0.03), at + half + border, rim);
-    s.light.lamps.push_back({at - Eigen::Vector3d(0, 0, 0.05), half.head<2>(), Rgb(2.15F, 2.1F, 1.95F)});
+    s.light.lamps.push_back({at - Eigen::Vector3d(0, 0, 0.05), half.head<2>(), Rgb(2.7F, 2.65F, 2.45F)});
   }
 }
 
@@ -144,8 +144,8 @@ Scene make_corridor(std::uint64_t seed) {
   furnish(s, walls, with, seed);
   const Polyline corners{{0, 0, 0}, {kLength_m, 0, 0}, {kLength_m, kDepth_m, 0}, {0, kDepth_m, 0}};
   add_lamps(s, corners);
-  s.light.ambient_up = {0.26F, 0.26F, 0.255F};
-  s.light.ambient_down = {0.40F, 0.39F, 0.36F};  // the floor throws the lamps' light back up
+  s.light.ambient_up = {0.32F, 0.32F, 0.31F};
+  s.light.ambient_down = {0.48F, 0.47F, 0.43F};  // the floor throws the lamps' light back up
   s.light.ambient_reach_m = 1.2;
   s.light.texel_m = 0.10;
 

@@ -116,15 +116,24 @@ void add_tree(Scene& s, const Eigen::Vector3d& foot_m, std::uint32_t seed) {
   const auto bark = s.add({Pattern::kBark, {0.13F, 0.095F, 0.065F}, Rgb::Zero(), 1.0F, 0.35F, 0.3F, seed});
   const float tint = 0.8F + 0.4F * cell_value(1, 1, seed);
   const auto leaves = s.add(
-      {Pattern::kFoliage, {0.02F, 0.045F, 0.012F}, Rgb(0.20F, 0.33F, 0.07F) * tint, 1.0F, 0.3F, 0.55F, seed});
+      {Pattern::kFoliage, {0.02F, 0.045F, 0.012F}, Rgb(0.27F, 0.42F, 0.10F) * tint, 1.0F, 0.3F, 0.55F, seed});
   s.add_pillar(foot_m, 0.13, 2.9, bark);
   s.add_pillar(foot_m, 0.19, 0.18, bark);
-  for (int i = 0; i < 16; ++i) {
-    const double angle = 2.4 * i, up = 2.7 + 0.17 * i;
-    const double reach = 1.15 * std::sqrt(std::max(0.0, 1.0 - std::pow((up - 3.6) / 2.0, 2.0)));
-    const double size = 0.55 + 0.35 * static_cast<double>(cell_value(i, 2, seed));
-    s.add_ellipsoid(foot_m + Eigen::Vector3d(reach * std::cos(angle), reach * std::sin(angle), up),
-                    {size, size, 0.75 * size}, leaves);
+  constexpr int kTwigs = 34;
+  for (int i = 0; i < kTwigs; ++i) {
+    const double angle = 2.4 * i, up = 2.5 + 3.2 * i / kTwigs;
+    const double reach = 1.5 * std::sqrt(std::max(0.0, 1.0 - std::pow((up - 3.7) / 2.1, 2.0))) *
+                         (0.55 + 0.45 * static_cast<double>(cell_value(i, 3, seed)));
+    const double size = 0.34 + 0.34 * static_cast<double>(cell_value(i, 2, seed));
+    Primitive twig;
+    twig.shape = Shape::kEllipsoid;
+    twig.material = leaves;
+    twig.centre_m = foot_m + Eigen::Vector3d(reach * std::cos(angle), reach * std::sin(angle), up);
+    twig.half_m = {1.25 * size, 0.9 * size, 0.65 * size};
+    twig.rotate((Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) *
+                 Eigen::AngleAxisd(0.5 * std::sin(3.0 * i), Eigen::Vector3d::UnitX()))
+                    .toRotationMatrix());
+    s.add(twig);
   }
 }
 

@@ -16,7 +16,7 @@ Rgb mix(const Rgb& a, const Rgb& b, float share_of_b) {
   return a + share_of_b * (b - a);
 }
 
-float noise(const Material& m, const TexturePoint& at, double largest_m, float gain = 0.65F) {
+float noise(const Material& m, const TexturePoint& at, double largest_m, float gain = 0.78F) {
   return octave_noise(at.uv_m, {largest_m, 0.004, gain, m.seed}, at.footprint_m);
 }
 
@@ -28,6 +28,16 @@ float own_shade(double column, double row, std::uint32_t seed, double size_m, do
 
 Rgb plaster(const Material& m, const TexturePoint& at) {
   return m.base * (1.0F + m.contrast * noise(m, at, 1.6, 0.75F));
+}
+
+/// Light and dark chips of about a centimetre, as in terrazzo and worn stone.
+float chips(const Material& m, const TexturePoint& at) {
+  constexpr double kChip_m = 0.022;
+  const float weight = detail_weight(2.0 * kChip_m, at.footprint_m);
+  if (weight <= 0.0F) return 0.0F;
+  const float value = value_noise(at.uv_m / kChip_m, m.seed ^ 0xC41BU);
+  const float beyond = std::max(0.0F, std::abs(value) - 0.25F);  // a third of the ground is chips
+  return weight * std::copysign(std::min(3.0F * beyond, 1.0F), value);
 }
 
 struct Bond {
@@ -49,7 +59,7 @@ Rgb masonry(const Material& m, const TexturePoint& at, const Bond& bond) {
   const float joint = 1.0F - (1.0F - open_x) * (1.0F - open_y);
   const double smaller_m = std::min(bond.width_m, bond.height_m);
   const float shade = own_shade(std::floor(x), row, m.seed ^ 0xB0DU, smaller_m, at.footprint_m);
-  const float grain = noise(m, at, 0.3);
+  const float grain = noise(m, at, 0.3) + chips(m, at);
   const Rgb stone = m.base * (1.0F + m.contrast * (0.8F * shade + grain));
   return mix(stone, m.accent * (1.0F + 0.5F * m.contrast * grain), joint);
 }
@@ -90,7 +100,7 @@ Rgb asphalt(const Material& m, const TexturePoint& at) {
 Rgb foliage(const Material& m, const TexturePoint& at) {
   const float big = octave_noise(at.uv_m, {0.35, 0.05, 0.7F, m.seed}, at.footprint_m);
   const float leaves = octave_noise(at.uv_m, {0.09, 0.006, 0.8F, m.seed + 4}, at.footprint_m);
-  const float light = std::clamp(0.5F + 0.6F * big + 0.9F * leaves, 0.0F, 1.0F);
+  const float light = std::clamp(0.45F + 0.6F * big + 1.3F * leaves, 0.0F, 1.0F);
   return mix(m.base, m.accent, light);
 }
 

@@ -122,8 +122,8 @@ Rgb sign_albedo(const Material& m, const TexturePoint& at) {
   const Sheet s{at.uv_m / width_m, at.footprint_m / width_m, m.seed};
   std::string number{static_cast<char>('A' + s.pick(6) % 6), static_cast<char>('1' + s.pick(7) % 4),
                      static_cast<char>('0' + s.pick(8) % 10), static_cast<char>('0' + s.pick(9) % 10)};
-  const double height = 0.8 * kGlyphHeight_cells / (kGlyphPitch_cells * static_cast<double>(number.size()));
-  return mix(m.base, m.accent, text_line(s, number, {0.11, 0.12}, height));
+  const double height = 0.7 * kGlyphHeight_cells / (kGlyphPitch_cells * static_cast<double>(number.size()));
+  return mix(m.base, m.accent, text_line(s, number, {0.16, 0.04}, height));
 }
 
 }  // namespace edgesplat::simulate

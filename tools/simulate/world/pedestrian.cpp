@@ -76,12 +76,13 @@ void add_arm(const Placing& place, double h, double side, double phase, Parts& o
   out.push_back(ball(place, wrist + Vector3d(0.01, 0, -0.03 * h), {0.024 * h, 0.018 * h, 0.045 * h}, kSkin));
 }
 
+/// Muted: few people wear pure colours.
 Rgb cloth_colour(NoiseStream& draw, float brightest) {
   const auto channel = [&] {
     return 0.03F + brightest * static_cast<float>(draw.uniform() * draw.uniform());
   };
-  const float r = channel(), g = channel(), b = channel();
-  return {r, g, b};
+  const float r = channel(), g = channel(), b = channel(), grey = (r + g + b) / 3.0F;
+  return Rgb::Constant(0.6F * grey) + 0.4F * Rgb(r, g, b);
 }
 
 }  // namespace

@@ -102,9 +102,9 @@ Scene make_street(std::uint64_t seed) {
   add_ground(s, number);
   add_houses(s, with, seed);
   add_furniture(s, with, seed);
-  s.light.sun = Sun{Eigen::Vector3d(0.35, 0.55, 0.9).normalized(), {0.62F, 0.57F, 0.48F}};
-  s.light.ambient_up = {0.36F, 0.40F, 0.47F};
-  s.light.ambient_down = {0.20F, 0.19F, 0.17F};
+  s.light.sun = Sun{Eigen::Vector3d(0.35, 0.55, 0.9).normalized(), {0.80F, 0.74F, 0.62F}};
+  s.light.ambient_up = {0.42F, 0.46F, 0.53F};
+  s.light.ambient_down = {0.28F, 0.27F, 0.25F};
   s.light.ambient_reach_m = 3.0;
   s.light.texel_m = 0.2;
 

@@ -55,7 +55,7 @@ void add_lamps(Scene& s) {
   for (double x = kStart_m + 4.0; x < kEnd_m; x += 8.0) {
     // Flush with the vault's crown, so that they are seen but hardly felt.
     s.add_box({x - 0.7, -0.15, top_m - 0.03}, {x + 0.7, 0.15, top_m + 0.1}, glow);
-    s.light.lamps.push_back({{x, 0.0, top_m - 0.04}, {0.7, 0.15}, Rgb(8.5F, 7.7F, 6.0F)});
+    s.light.lamps.push_back({{x, 0.0, top_m - 0.04}, {0.7, 0.15}, Rgb(13.5F, 12.4F, 10.0F)});
   }
 }
 
@@ -65,8 +65,8 @@ Scene make_tunnel(std::uint64_t seed) {
   Scene s;
   add_vault(s, static_cast<std::uint32_t>(mix_bits(seed)));
   add_lamps(s);
-  s.light.ambient_up = {0.20F, 0.19F, 0.17F};
-  s.light.ambient_down = {0.24F, 0.23F, 0.20F};
+  s.light.ambient_up = {0.30F, 0.285F, 0.25F};
+  s.light.ambient_down = {0.38F, 0.36F, 0.31F};
   s.light.ambient_reach_m = 2.0;
   s.light.texel_m = 0.25;
   Polyline left, right;
