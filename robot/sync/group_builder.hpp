@@ -20,7 +20,7 @@ struct GroupBuilderConfig {
   double image_wait_s = 0.1;  ///< how far an image may lag behind the points before it is missed, [0, 1]
   double sensor_gap_s = 0.5;  ///< LiDAR or IMU silent for this long: go on without it, [0.05, 5]
   double image_tolerance_s = 0.02;     ///< between a whole scan and its image, [0, 0.1]
-  std::size_t max_points = 1'000'000;  ///< 5 s of a Mid-360, 32 MB
+  std::size_t max_points = 1'000'000;  ///< 5 s of a Mid-360, 24 MB
   std::size_t max_imu_samples = 5'000;
   std::size_t max_images = 32;
   std::size_t max_image_bytes = std::size_t{128} << 20U;

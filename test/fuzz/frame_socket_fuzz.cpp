@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <vector>
 
 /// A byte stream in reads of a size that the first byte gives; then the same with the first header's
@@ -15,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   if (size == 0) return 0;
   const std::size_t step = 1 + bytes[0];
   std::vector<std::byte> stream(size - 1);
-  std::memcpy(stream.data(), bytes + 1, size - 1);
+  std::copy_n(std::as_bytes(std::span(bytes, size)).begin() + 1, size - 1, stream.begin());
   const auto feed = [&] {
     FrameAssembler assembler;
     FrameSource source;

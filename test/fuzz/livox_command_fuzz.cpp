@@ -3,8 +3,10 @@
 #include "robot/drivers/livox/checksum.hpp"
 #include "robot/drivers/livox/livox_command.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <vector>
 
 /// One command frame as it is, and again with its length and checksums made right, so that the lists are
@@ -12,7 +14,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace edgesplat::livox;
   std::vector<std::byte> datagram(size);
-  std::memcpy(datagram.data(), bytes, size);
+  std::copy_n(std::as_bytes(std::span(bytes, size)).begin(), size, datagram.begin());
   const auto feed = [&] {
     const auto frame = decode_command(datagram);
     if (!frame) return;

@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <vector>
 
 /// One datagram as it is, and again with its length and checksum made right, so that the records are reached.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace edgesplat;
   std::vector<std::byte> datagram(size);
-  std::memcpy(datagram.data(), bytes, size);
+  std::copy_n(std::as_bytes(std::span(bytes, size)).begin(), size, datagram.begin());
   livox::LivoxSource source;
   const auto feed = [&] {
     (void)source.on_points(datagram, host_time_from_ns(1));

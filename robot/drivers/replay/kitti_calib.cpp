@@ -16,6 +16,8 @@
 namespace edgesplat::replay {
 namespace {
 
+constexpr double kLargest = 1e6;  // no focal length, baseline or shift of a camera is larger
+
 struct Entry {
   std::string_view key;
   std::size_t values;
@@ -27,7 +29,7 @@ std::string at_line(std::string_view file_name, std::size_t line) {
   return std::string(file_name) + ":" + std::to_string(line) + ": ";
 }
 
-/// Exactly entry.values finite numbers, separated by blanks.
+/// Exactly entry.values finite numbers of a sensible size, separated by blanks.
 bool read_numbers(std::string_view text, Entry& entry) {
   std::size_t count = 0;
   const char* at = text.data();
@@ -37,7 +39,7 @@ bool read_numbers(std::string_view text, Entry& entry) {
     if (at == end) return count == entry.values;
     if (count == entry.values) return false;
     const auto [rest, error] = std::from_chars(at, end, entry.numbers.at(count));
-    if (error != std::errc{} || !std::isfinite(entry.numbers.at(count))) return false;
+    if (error != std::errc{} || !(std::abs(entry.numbers.at(count)) <= kLargest)) return false;
     at = rest;
     ++count;
   }
@@ -66,11 +68,13 @@ Result<sensor::CameraMount> compose(const Entry& projection, const Entry& rectif
   mount.model.fy_px = intrinsics(1, 1);
   mount.model.cx_px = intrinsics(0, 2);
   mount.model.cy_px = intrinsics(1, 2);
-  const double determinant = camera_from_lidar.leftCols<3>().determinant();
-  if (std::abs(determinant - 1.0) > 1e-3)
-    return fail(Errc::kInvalidConfig, std::string(file_name) +
-                                          ": R_rect_00 * Tr_velo_to_cam is no rotation (determinant " +
-                                          std::to_string(determinant) + ", expected 1)");
+  const Eigen::Matrix3d rotation = camera_from_lidar.leftCols<3>();
+  const double skew = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm();
+  if (!(skew < 1e-2) || rotation.determinant() < 0)
+    return fail(Errc::kInvalidConfig,
+                std::string(file_name) +
+                    ": R_rect_00 * Tr_velo_to_cam is no rotation (its columns are off by " +
+                    std::to_string(skew) + ")");
   mount.body_from_camera = geometry::RigidTransform::from_matrix(camera_from_lidar).inverse();
   return mount;
 }

@@ -66,6 +66,14 @@ TEST(KittiCalib, RefusesWhatIsNoRotationOrNoCamera) {
   std::string scaled = kKittiCalib;
   scaled.replace(scaled.find("9.999239e-01"), 12, "1.999239e-01");
   EXPECT_EQ(parse_kitti_camera(scaled, "c", 1242, 375).error().code, Errc::kInvalidConfig);
+  std::string mirrored = kKittiCalib;
+  mirrored.replace(
+      mirrored.find("R_rect_00: 9.999239e-01 9.837760e-03 -7.445048e-03 -9.869795e-03 9.999421e-01"), 77,
+      "R_rect_00: -9.999239e-01 -9.83776e-03 7.445048e-03 -9.869795e-03 9.999421e-01");
+  EXPECT_EQ(parse_kitti_camera(mirrored, "c", 1242, 375).error().code, Errc::kInvalidConfig);
+  std::string huge = kKittiCalib;
+  huge.replace(huge.find("-4.069766e-03"), 13, "-9.998902e301");  // found by fuzzing: sums became NaN
+  EXPECT_EQ(parse_kitti_camera(huge, "c", 1242, 375).error().code, Errc::kInvalidConfig);
   std::string flat = kKittiCalib;
   flat.replace(flat.find("721.5377"), 8, "0.000000");
   EXPECT_EQ(parse_kitti_camera(flat, "c", 1242, 375).error().code, Errc::kInvalidConfig);
