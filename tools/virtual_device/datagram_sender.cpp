@@ -3,7 +3,6 @@
 #include "tools/virtual_device/datagram_sender.hpp"
 
 #include <arpa/inet.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -21,14 +20,14 @@ Result<DatagramSender> DatagramSender::open(const std::string& address, std::uin
   UniqueFd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   if (!socket.valid())
     return fail(Errc::kIo, std::string("cannot open a UDP socket: ") + std::strerror(errno));
-  if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&to), sizeof(to)) != 0) {
-    return fail(Errc::kIo, "no route to " + address + ": " + std::strerror(errno));
-  }
-  return DatagramSender(std::move(socket));
+  return DatagramSender(std::move(socket), to);
 }
 
 bool DatagramSender::send(std::span<const std::byte> datagram) {
-  const ssize_t n = ::send(socket_.get(), datagram.data(), datagram.size(), MSG_NOSIGNAL);
+  // Not connected: a connected socket would lose every other datagram to "port unreachable" until the robot
+  // is up.
+  const ssize_t n = ::sendto(socket_.get(), datagram.data(), datagram.size(), MSG_NOSIGNAL,
+                             reinterpret_cast<const sockaddr*>(&to_), sizeof(to_));
   const bool whole = n >= 0 && static_cast<std::size_t>(n) == datagram.size();
   ++(whole ? sent_ : refused_);
   return whole;

@@ -5,6 +5,8 @@
 #include "common/base/result.hpp"
 #include "common/base/unique_fd.hpp"
 
+#include <netinet/in.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,15 +19,15 @@ class DatagramSender {
  public:
   /// `address` is a numeric IPv4 address. kInvalidConfig, kIo.
   static Result<DatagramSender> open(const std::string& address, std::uint16_t port);
-  /// False where the system refused (nobody listens on this host, buffers full): counted, not fatal, as on a
-  /// real wire.
+  /// False where the system refused (buffers full, no route): counted, not fatal, as on a real wire.
   bool send(std::span<const std::byte> datagram);
   [[nodiscard]] std::uint64_t sent() const { return sent_; }
   [[nodiscard]] std::uint64_t refused() const { return refused_; }
 
  private:
-  explicit DatagramSender(UniqueFd socket) : socket_(std::move(socket)) {}
+  DatagramSender(UniqueFd socket, const sockaddr_in& to) : socket_(std::move(socket)), to_(to) {}
   UniqueFd socket_;
+  sockaddr_in to_;
   std::uint64_t sent_ = 0;
   std::uint64_t refused_ = 0;
 };

@@ -29,7 +29,7 @@ struct StreamOptions {
 struct StreamReport {
   std::uint64_t points_sent = 0;  ///< datagrams
   std::uint64_t imu_sent = 0;
-  std::uint64_t refused = 0;  ///< by the system: nobody listens
+  std::uint64_t refused = 0;  ///< by the system: buffers full, no route
   std::uint64_t flipped = 0;  ///< on demand
   std::uint64_t dropped = 0;  ///< on demand
   std::uint64_t frames_sent = 0;

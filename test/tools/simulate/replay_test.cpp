@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 // The robot's own reader against the simulator: neither shares code with the other.
+#include "common/io/image_file.hpp"
+#include "common/io/mcap_reader.hpp"
+#include "common/io/recording_topics.hpp"
+#include "common/io/ros_messages.hpp"
 #include "robot/drivers/replay/replay_source.hpp"
 #include "tools/simulate/simulator.hpp"
 #include "tools/simulate/trajectory.hpp"
@@ -100,6 +104,42 @@ TEST(SimulatedRecording, PointsLieOnTheWorldsSurfaces) {
   }
   ASSERT_GT(all, 4000);
   EXPECT_GT(static_cast<double>(near), 0.95 * all);
+}
+
+// LiDAR and camera see one world: returns fired around an exposure land in its depth picture at their depth.
+TEST(SimulatedRecording, PointsAgreeWithTheDepthPicture) {
+  SimulateOptions options = three_seconds("depth");
+  options.seconds = 0.3;  // standing still
+  const auto simulated = simulate(options, {}, {});
+  ASSERT_TRUE(simulated.has_value());
+  auto reader = io::McapReader::open(options.out);
+  ASSERT_TRUE(reader.has_value());
+  reader->select({.topics = {std::string(io::kTruthCameraDepthTopic)}});
+  const auto message = reader->next();
+  ASSERT_TRUE(message.has_value());
+  const auto picture = io::decode_compressed_image(message->payload);
+  ASSERT_TRUE(picture.has_value());
+  const auto depth_mm = io::decode_gray16(picture->encoded);
+  ASSERT_TRUE(depth_mm.has_value());
+
+  const Replayed replayed = simulate_and_replay(options);
+  const sensor::CameraMount& camera = *replayed.rig.camera;
+  const auto camera_from_lidar = camera.body_from_camera.inverse() * replayed.rig.body_from_lidar;
+  int agree = 0, all = 0;
+  for (const sensor::LidarPacket& packet : replayed.packets) {
+    for (const sensor::LidarPoint& point : packet.points) {
+      const Eigen::Vector3d p_in_camera =
+          camera_from_lidar * Eigen::Vector3d(point.p_in_lidar_m.cast<double>());
+      const auto pixel = camera.model.project(p_in_camera);
+      if (!pixel || !camera.model.contains(*pixel)) continue;
+      const auto x = static_cast<int>(std::lround(pixel->x())), y = static_cast<int>(std::lround(pixel->y()));
+      const double depth_m = 1e-3 * *depth_mm->pixel(x, y);
+      if (std::abs(depth_m - p_in_camera.z()) < 0.05 * p_in_camera.z()) ++agree;
+      ++all;
+    }
+  }
+  ASSERT_GT(all, 2000);
+  EXPECT_GT(static_cast<double>(agree), 0.9 * all);
 }
 
 TEST(SimulatedRecording, FreeClocksCountFromPowerOn) {
