@@ -154,4 +154,32 @@ Prediction predict_without_imu(const FilterBelief& belief, const MotionNoise& fr
   return std::move(walker.prediction());
 }
 
+std::vector<PathKnot> uniform_path(const FilterState& state, HostTime at, Interval interval) {
+  constexpr int kSteps = 10;
+  std::vector<PathKnot> path;
+  for (int i = 0; i <= kSteps; ++i) {
+    const HostTime stamp = interval.begin + (interval.end - interval.begin) * i / kSteps;
+    const double dt_s = to_seconds(stamp - at);
+    path.push_back({stamp, state.odom_from_body});
+    geometry::RigidTransform& pose = path.back().odom_from_body;
+    pose.rotation = (pose.rotation * geometry::so3_exp(-dt_s * state.gyro_bias_radps)).normalized();
+    pose.translation_m += dt_s * state.velocity_in_odom_mps;
+  }
+  return path;
+}
+
+void correct_path(std::vector<PathKnot>& path, HostTime at, const FilterState& predicted,
+                  const FilterState& corrected) {
+  const geometry::RigidTransform moved = corrected.odom_from_body * predicted.odom_from_body.inverse();
+  const Vector3d faster = corrected.velocity_in_odom_mps - moved.rotation * predicted.velocity_in_odom_mps;
+  const Vector3d turn = predicted.gyro_bias_radps - corrected.gyro_bias_radps;
+  for (PathKnot& knot : path) {
+    const double dt_s = to_seconds(knot.stamp - at);
+    knot.odom_from_body = moved * knot.odom_from_body;
+    knot.odom_from_body.translation_m += dt_s * faster;
+    knot.odom_from_body.rotation =
+        (knot.odom_from_body.rotation * geometry::so3_exp(dt_s * turn)).normalized();
+  }
+}
+
 }  // namespace edgesplat::tracking

@@ -65,4 +65,11 @@ struct Interval {
 [[nodiscard]] Prediction predict_without_imu(const FilterBelief& belief, const MotionNoise& free_motion,
                                              Interval interval);
 
+/// The way at constant velocity through a state of predict_without_imu, before and after its moment `at`.
+[[nodiscard]] std::vector<PathKnot> uniform_path(const FilterState& state, HostTime at, Interval interval);
+/// What a path to or through `predicted` (at the moment `at`) becomes when that state was in truth
+/// `corrected`: moved along, and bent by the change of velocity and gyro bias.
+void correct_path(std::vector<PathKnot>& path, HostTime at, const FilterState& predicted,
+                  const FilterState& corrected);
+
 }  // namespace edgesplat::tracking

@@ -25,6 +25,8 @@ Sweep::Sweep(const sensor::Rig& rig, double max_range_m, BlockLoop& loop)
 
 void Sweep::load(const sync::MeasureGroup& group, TrackingCounters& counters) {
   has_point_times_ = group.has_point_times;
+  end_ = group.end;
+  std::int64_t before_end_sum_ns = 0;
   points_in_lidar_m_.clear();
   before_end_ns_.clear();
   reflectivity_.clear();
@@ -37,19 +39,20 @@ void Sweep::load(const sync::MeasureGroup& group, TrackingCounters& counters) {
     } else {
       points_in_lidar_m_.push_back(point.p_in_lidar_m);
       before_end_ns_.push_back(has_point_times_ ? std::max(point.before_end_ns, 0) : 0);
+      before_end_sum_ns += before_end_ns_.back();
       reflectivity_.push_back(point.reflectivity);
     }
   }
+  const auto count = std::max<std::int64_t>(1, static_cast<std::int64_t>(before_end_ns_.size()));
+  middle_ = end_ - nanoseconds(before_end_sum_ns / count);
 }
 
-void Sweep::deskew(std::span<const PathKnot> path) {
+void Sweep::deskew(std::span<const PathKnot> path, const geometry::RigidTransform& body_from_odom) {
   std::vector<pointcloud::MotionKnot> knots;
-  const geometry::RigidTransform end_from_odom = path.back().odom_from_body.inverse();
   for (const PathKnot& knot : path) {
-    if (!has_point_times_ && &knot != &path.back()) continue;
-    knots.push_back(
-        {clamp_ns(path.back().stamp - knot.stamp), end_from_odom * knot.odom_from_body * body_from_lidar_});
+    knots.push_back({clamp_ns(end_ - knot.stamp), body_from_odom * knot.odom_from_body * body_from_lidar_});
   }
+  if (!has_point_times_) knots = {{0, body_from_lidar_}};
   points_in_body_m_.resize(points_in_lidar_m_.size());
   const std::span<const Eigen::Vector3f> points = points_in_lidar_m_;
   const std::span<const std::int32_t> times = before_end_ns_;
@@ -61,9 +64,13 @@ void Sweep::deskew(std::span<const PathKnot> path) {
   });
 }
 
-std::vector<DeskewedPoint> Sweep::deskewed() const {
+std::vector<DeskewedPoint> Sweep::deskewed(const geometry::RigidTransform& target_from_body) const {
+  const Eigen::Matrix3f rotation = target_from_body.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f translation = target_from_body.translation_m.cast<float>();
   std::vector<DeskewedPoint> points(points_in_body_m_.size());
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {points_in_body_m_[i], reflectivity_[i]};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = {rotation * points_in_body_m_[i] + translation, reflectivity_[i]};
+  }
   return points;
 }
 

@@ -18,7 +18,7 @@
 
 namespace edgesplat::tracking {
 
-/// The usable points of one group, as columns, and their places in the body frame at the group's end. Keeps
+/// The usable points of one group, as columns, and their places in the body frame at one moment. Keeps
 /// its memory between groups. Thread-bound.
 class Sweep {
  public:
@@ -26,13 +26,17 @@ class Sweep {
 
   /// Takes a group's points, leaving out what is not finite or out of range, and counts those.
   void load(const sync::MeasureGroup& group, TrackingCounters& counters);
-  /// Moves all points to the body frame at the path's end. Points older than the path take its first pose.
-  void deskew(std::span<const PathKnot> path);
+  /// Moves all points to the body frame of one moment, given as `body_from_odom`. Points from outside the
+  /// path's time take its nearest pose; without point times all are taken as measured at that moment.
+  void deskew(std::span<const PathKnot> path, const geometry::RigidTransform& body_from_odom);
   /// True when the points were measured at different times.
   [[nodiscard]] bool has_point_times() const { return has_point_times_; }
+  /// Mean of the points' times: the moment that they tell most about. The group's end without point times.
+  [[nodiscard]] HostTime middle() const { return middle_; }
 
   [[nodiscard]] std::span<const Eigen::Vector3f> points_in_body_m() const { return points_in_body_m_; }
-  [[nodiscard]] std::vector<DeskewedPoint> deskewed() const;
+  /// The points moved on to another frame, with their reflectivity.
+  [[nodiscard]] std::vector<DeskewedPoint> deskewed(const geometry::RigidTransform& target_from_body) const;
 
  private:
   geometry::RigidTransform body_from_lidar_;
@@ -40,6 +44,8 @@ class Sweep {
   float max_range_m_;
   BlockLoop& loop_;
   bool has_point_times_ = true;
+  HostTime end_{};
+  HostTime middle_{};
   std::vector<Eigen::Vector3f> points_in_lidar_m_;
   std::vector<std::int32_t> before_end_ns_;
   std::vector<float> reflectivity_;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/tracking/tracker_impl.hpp"
 
-#include "common/geometry/so3.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,9 +13,9 @@ namespace {
 constexpr std::size_t kBlockSize = 1024;
 /// A rig whose IMU is silent for this many groups starts without it.
 constexpr int kGroupsUntilFree = 10;
-/// Corrections larger than these deskew the points anew with the corrected motion.
-constexpr double kDeskewAgain_m = 0.005;
-constexpr double kDeskewAgain_rad = 0.001;
+/// Corrections of the motion within a group larger than these deskew the points anew.
+constexpr double kDeskewAgain_m = 0.002;
+constexpr double kDeskewAgain_rad = 0.0005;
 
 PlaneMapConfig map_config(const TrackingConfig& config) {
   return {config.root_voxel_m,
@@ -32,22 +30,6 @@ PlaneMapConfig map_config(const TrackingConfig& config) {
 ScanUpdateConfig update_config(const TrackingConfig& config) {
   return {config.max_iterations, static_cast<float>(config.gate_sigma),
           static_cast<float>(config.min_residual_sigma_m), config.min_residuals};
-}
-
-/// The correction at the path's end, spread evenly over the time since its begin (whose pose was settled
-/// before).
-void bend(std::vector<PathKnot>& path, const geometry::RigidTransform& end) {
-  const HostTime begin = path.front().stamp;
-  const double span_s = to_seconds(path.back().stamp - begin);
-  const Eigen::Vector3d turn =
-      geometry::so3_log(path.back().odom_from_body.rotation.conjugate() * end.rotation);
-  const Eigen::Vector3d shift = end.translation_m - path.back().odom_from_body.translation_m;
-  for (PathKnot& knot : path) {
-    const double share = to_seconds(knot.stamp - begin) / span_s;
-    knot.odom_from_body.rotation =
-        (knot.odom_from_body.rotation * geometry::so3_exp(share * turn)).normalized();
-    knot.odom_from_body.translation_m += share * shift;
-  }
 }
 
 }  // namespace
@@ -107,9 +89,21 @@ void Tracker::Impl::initialise(const sync::MeasureGroup& group) {
   }
 }
 
+// Without an IMU the pose is estimated for the middle of the points' times: an error of the estimated rate
+// then distorts the points evenly to both sides and moves the pose little. Estimated for the end, it moves
+// the pose the other way, the next rate swings back too far, and the two build up (seen in turns of 0.8
+// rad/s).
+HostTime Tracker::Impl::update_time(const sync::MeasureGroup& group) const {
+  return with_imu ? group.end : std::max(sweep.middle(), belief_time + (group.end - belief_time) / 4);
+}
+
 Prediction Tracker::Impl::predict(const sync::MeasureGroup& group) {
-  const Interval interval{*last_end, group.end};
-  if (!with_imu) return predict_without_imu(*belief, free_motion.without_imu(), interval);
+  const Interval interval{belief_time, update_time(group)};
+  if (!with_imu) {
+    Prediction prediction = predict_without_imu(*belief, free_motion.without_imu(), interval);
+    prediction.path = uniform_path(prediction.belief.state, interval.end, {group.begin, group.end});
+    return prediction;
+  }
   Prediction prediction;
   if (imu.empty()) {
     prediction = predict_without_imu(*belief, free_motion.in_a_hole(), interval);
@@ -130,23 +124,25 @@ void Tracker::Impl::pick_scan_points() {
   for (std::size_t i = 0; i < count; ++i) scan_points_m.push_back(points[kept[i * kept.size() / count]]);
 }
 
-ScanUpdateResult Tracker::Impl::update(Prediction& prediction) {
-  sweep.deskew(prediction.path);
+ScanUpdateResult Tracker::Impl::match(const Prediction& prediction, const FilterState& start) {
+  sweep.deskew(prediction.path, start.odom_from_body.inverse());
   pick_scan_points();
-  const Eigen::Vector3f lidar_in_body = rig.body_from_lidar.translation_m.cast<float>();
-  ScanUpdateResult result =
-      updater.run(prediction.belief, prediction.belief.state, {scan_points_m, lidar_in_body, &noise}, map);
+  return updater.run(prediction.belief, start,
+                     {scan_points_m, rig.body_from_lidar.translation_m.cast<float>(), &noise}, map);
+}
+
+ScanUpdateResult Tracker::Impl::update(Prediction& prediction, HostTime at) {
+  const FilterState& predicted = prediction.belief.state;
+  const ScanUpdateResult result = match(prediction, predicted);
   if (!result.updated || !sweep.has_point_times() || prediction.path.size() < 2) return result;
-  const ErrorVector correction = minus(result.belief.state, prediction.belief.state);
-  if (correction.segment<3>(kPos).norm() < kDeskewAgain_m &&
-      correction.segment<3>(kRot).norm() < kDeskewAgain_rad) {
+  const double span_s = to_seconds(prediction.path.back().stamp - prediction.path.front().stamp);
+  const ErrorVector correction = minus(result.belief.state, predicted);
+  if (correction.segment<3>(kVel).norm() * span_s < kDeskewAgain_m &&
+      correction.segment<3>(kGyroBias).norm() * span_s < kDeskewAgain_rad) {
     return result;
   }
-  bend(prediction.path, result.belief.state.odom_from_body);
-  sweep.deskew(prediction.path);
-  pick_scan_points();
-  const ScanUpdateResult again =
-      updater.run(prediction.belief, result.belief.state, {scan_points_m, lidar_in_body, &noise}, map);
+  correct_path(prediction.path, at, predicted, result.belief.state);
+  const ScanUpdateResult again = match(prediction, result.belief.state);
   return again.updated ? again : result;
 }
 
@@ -179,11 +175,15 @@ void Tracker::Impl::extend_map(const ScanUpdateResult& result) {
 }
 
 TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUpdateResult& result) const {
+  const FilterBelief at_end =
+      belief_time < group.end
+          ? predict_without_imu(*belief, free_motion.without_imu(), {belief_time, group.end}).belief
+          : *belief;
   TrackedGroup tracked;
   tracked.stamp = group.end;
-  tracked.odom_from_body = belief->state.odom_from_body;
-  tracked.pose_covariance = belief->covariance.topLeftCorner<6, 6>();
-  tracked.velocity_in_odom_mps = belief->state.velocity_in_odom_mps;
+  tracked.odom_from_body = at_end.state.odom_from_body;
+  tracked.pose_covariance = at_end.covariance.topLeftCorner<6, 6>();
+  tracked.velocity_in_odom_mps = at_end.state.velocity_in_odom_mps;
   if (with_imu) {
     tracked.gyro_bias_radps = belief->state.gyro_bias_radps;
     tracked.accel_bias_mps2 = belief->state.accel_bias_mps2;
@@ -194,8 +194,24 @@ TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUp
   if (result.last.used > 0)
     tracked.health.residual_rms_m = std::sqrt(result.last.squares_m2 / result.last.used);
   tracked.health.translation_conditioning = result.translation_conditioning;
-  tracked.points_in_body = sweep.deskewed();
+  tracked.points_in_body = sweep.deskewed(tracked.odom_from_body.inverse() * belief->state.odom_from_body);
   return tracked;
+}
+
+TrackedGroup Tracker::Impl::start(const sync::MeasureGroup& group) {
+  initialise(group);
+  last_end = group.end;
+  belief_time = group.end;
+  TrackedGroup waiting;
+  waiting.stamp = group.end;
+  if (!belief) return waiting;
+  const geometry::RigidTransform pose = belief->state.odom_from_body;
+  const PathKnot here{group.end, pose};
+  sweep.deskew(std::span(&here, 1), pose.inverse());
+  ScanUpdateResult first;
+  first.updated = true;  // this pose defines odom
+  extend_map(first);
+  return report(group, first);
 }
 
 Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
@@ -203,28 +219,16 @@ Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
   ++counters.groups;
   clean_imu(group);
   sweep.load(group, counters);
-  ScanUpdateResult result;
-  if (!belief) {
-    initialise(group);
-    last_end = group.end;
-    const PathKnot here{group.end, belief ? belief->state.odom_from_body : geometry::RigidTransform{}};
-    sweep.deskew(std::span(&here, 1));
-    if (!belief) {
-      TrackedGroup waiting;
-      waiting.stamp = group.end;
-      return waiting;
-    }
-    result.updated = true;  // the first pose defines odom
-    extend_map(result);
-    return report(group, result);
-  }
+  if (!belief) return start(group);
   Prediction prediction = predict(group);
-  const double dt_s = to_seconds(group.end - *last_end);
-  result = update(prediction);
+  const HostTime at = update_time(group);
+  const ScanUpdateResult result = update(prediction, at);
   if (!result.updated) ++counters.coasted_groups;
-  if (result.updated && !with_imu)
-    free_motion.observe(minus(result.belief.state, prediction.belief.state), dt_s);
+  if (result.updated && !with_imu) {
+    free_motion.observe(minus(result.belief.state, prediction.belief.state), to_seconds(at - belief_time));
+  }
   belief = result.belief;
+  belief_time = at;
   last_end = group.end;
   extend_map(result);
   return report(group, result);

@@ -26,8 +26,12 @@ struct Tracker::Impl {
   void clean_imu(const sync::MeasureGroup& group);
   /// Sets the first belief once there is one.
   void initialise(const sync::MeasureGroup& group);
+  TrackedGroup start(const sync::MeasureGroup& group);
+  /// The moment whose pose the group's points are to tell.
+  HostTime update_time(const sync::MeasureGroup& group) const;
   Prediction predict(const sync::MeasureGroup& group);
-  ScanUpdateResult update(Prediction& prediction);
+  ScanUpdateResult match(const Prediction& prediction, const FilterState& start_at);
+  ScanUpdateResult update(Prediction& prediction, HostTime at);
   void pick_scan_points();
   void extend_map(const ScanUpdateResult& update);
   TrackedGroup report(const sync::MeasureGroup& group, const ScanUpdateResult& update) const;
@@ -45,8 +49,9 @@ struct Tracker::Impl {
   bool with_imu;               ///< decided at the first pose, then fixed
   int groups_without_imu = 0;  ///< in a row, before the first pose
   std::optional<HostTime> last_end;
-  std::optional<FilterBelief> belief;  ///< at last_end
-  std::vector<sync::GroupImu> imu;     ///< the group's good samples; the newest ever when it has none
+  std::optional<FilterBelief> belief;
+  HostTime belief_time{};           ///< last_end, or the middle of its points without an IMU
+  std::vector<sync::GroupImu> imu;  ///< the group's good samples; the newest ever when it has none
   pointcloud::VoxelDownsampler scan_downsampler;
   pointcloud::VoxelDownsampler map_downsampler;
   std::vector<Eigen::Vector3f> scan_points_m;  ///< matched against the map
