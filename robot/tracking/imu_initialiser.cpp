@@ -14,6 +14,8 @@ constexpr double kStandardGravity_mps2 = 9.81;
 /// A MEMS accelerometer's bias over the years: what levelling at rest cannot see.
 constexpr double kAccelBiasSigma_mps2 = 0.1;
 constexpr double kGravitySigma_mps2 = 0.02;
+/// A mean force further from gravity's is a push, or an IMU in the wrong unit.
+constexpr double kRestForceTolerance_mps2 = 0.5;
 
 template <typename Field>
 ImuInitialiser::Spread spread_of(const std::vector<sync::GroupImu>& samples, Field field) {
@@ -37,14 +39,22 @@ std::optional<InitialBelief> ImuInitialiser::add(const std::vector<sync::GroupIm
   return solve();
 }
 
+// The spread may exceed the limits by what white noise at the IMU's rate explains.
+bool ImuInitialiser::at_rest(const Spread& accel, const Spread& gyro) const {
+  const auto limit = [&](double motion, double density) {
+    return std::sqrt(motion * motion + 3.0 * density * density * model_.rate_hz);
+  };
+  return accel.deviation < limit(config_.init_accel_spread_max_mps2, model_.accel_noise_mps2_per_sqrt_hz) &&
+         gyro.deviation < limit(config_.init_gyro_rate_max_radps, model_.gyro_noise_radps_per_sqrt_hz) &&
+         gyro.mean.norm() < config_.init_gyro_rate_max_radps &&
+         std::abs(accel.mean.norm() - kStandardGravity_mps2) < kRestForceTolerance_mps2;
+}
+
 InitialBelief ImuInitialiser::solve() const {
   const Spread accel = spread_of(samples_, [](const sync::GroupImu& s) -> Vector3d { return s.accel_mps2; });
   const Spread gyro = spread_of(samples_, [](const sync::GroupImu& s) -> Vector3d { return s.gyro_radps; });
   InitialBelief initial;
-  initial.stationary = accel.deviation < config_.init_accel_spread_max_mps2 &&
-                       gyro.mean.norm() < config_.init_gyro_rate_max_radps &&
-                       gyro.deviation < config_.init_gyro_rate_max_radps &&
-                       std::abs(accel.mean.norm() - kStandardGravity_mps2) < 0.5;
+  initial.stationary = at_rest(accel, gyro);
   FilterState& state = initial.belief.state;
   state.odom_from_body.rotation = Eigen::Quaterniond::FromTwoVectors(accel.mean, Vector3d::UnitZ());
   state.gravity_in_odom_mps2 = Vector3d(0.0, 0.0, -kStandardGravity_mps2);
@@ -67,13 +77,13 @@ ErrorMatrix ImuInitialiser::initial_covariance(const InitialBelief& initial, con
   set(kRot, 1e-4);
   set(kPos, 1e-4);
   set(kAccelBias, kAccelBiasSigma_mps2);
+  // A body that rolls smoothly feels the same as one at rest: the speed stays unknown until the second scan.
+  set(kVel, config_.init_moving_speed_sigma_mps);
   if (!initial.stationary) {
-    set(kVel, config_.init_moving_speed_sigma_mps);
     set(kGyroBias, config_.init_gyro_rate_max_radps);
     set(kGravity, std::max(0.5, accel.deviation));
     return p;
   }
-  set(kVel, 0.02);
   set(kGyroBias, 1e-4 + gyro.deviation / std::sqrt(samples));
   const Eigen::Matrix3d rotation = initial.belief.state.odom_from_body.rotation.toRotationMatrix();
   const double bias_variance = kAccelBiasSigma_mps2 * kAccelBiasSigma_mps2;

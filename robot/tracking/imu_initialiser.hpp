@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/sensor/rig.hpp"
 #include "robot/sync/measure_group.hpp"
 #include "robot/tracking/filter_state.hpp"
 #include "robot/tracking/tracking_config.hpp"
@@ -14,7 +15,7 @@ namespace edgesplat::tracking {
 /// The first belief, and what it rests on.
 struct InitialBelief {
   FilterBelief belief;
-  bool stationary = false;
+  bool stationary = false;  ///< as far as an IMU can tell: smooth driving looks the same
 };
 
 /// Finds gravity and the gyro bias from the first IMU samples. A start at rest gives the bias and a level to
@@ -28,7 +29,8 @@ class ImuInitialiser {
     double deviation = 0.0;
   };
 
-  explicit ImuInitialiser(const TrackingConfig& config) : config_(config) {}
+  ImuInitialiser(const TrackingConfig& config, const sensor::ImuModel& model)
+      : config_(config), model_(model) {}
 
   /// Takes a group's samples; the belief once `init_s` of them were seen. Samples repeated between groups
   /// count once.
@@ -39,7 +41,10 @@ class ImuInitialiser {
   [[nodiscard]] ErrorMatrix initial_covariance(const InitialBelief& initial, const Spread& accel,
                                                const Spread& gyro) const;
 
+  [[nodiscard]] bool at_rest(const Spread& accel, const Spread& gyro) const;
+
   TrackingConfig config_;
+  sensor::ImuModel model_;
   std::vector<sync::GroupImu> samples_;
 };
 

@@ -13,6 +13,9 @@ namespace {
 constexpr std::size_t kBlockSize = 1024;
 /// A rig whose IMU is silent for this many groups starts without it.
 constexpr int kGroupsUntilFree = 10;
+/// After a start in motion the map is drawn anew from each of this many scans: until the speed is known,
+/// scans are deskewed wrongly, and a bent first map would bend everything after it.
+constexpr double kSmoothStart_mps = 0.1;
 /// Corrections of the motion within a group larger than these deskew the points anew.
 constexpr double kDeskewAgain_m = 0.002;
 constexpr double kDeskewAgain_rad = 0.0005;
@@ -43,7 +46,7 @@ Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in)
       updater(update_config(config_in), loop),
       sweep(rig_in, config_in.max_range_m, loop),
       free_motion(config_in),
-      initialiser(config_in),
+      initialiser(config_in, rig_in.imu.value_or(sensor::ImuModel{})),
       with_imu(rig_in.imu.has_value()) {}
 
 Status Tracker::Impl::check_times(const sync::MeasureGroup& group) const {
@@ -150,6 +153,12 @@ void Tracker::Impl::extend_map(const ScanUpdateResult& result) {
   // A lost pose must not spoil the map; an unmapped place must enter it.
   const bool unmapped = static_cast<std::size_t>(result.last.matched) * 10 < scan_points_m.size();
   if (!result.updated && !unmapped) return;
+  if (scans_to_redraw > 0 && result.updated) {
+    --scans_to_redraw;
+    const bool was_bent =
+        sweep.has_point_times() && belief->state.velocity_in_odom_mps.norm() > kSmoothStart_mps;
+    if (was_bent) map = PlaneMap(map_config(config));
+  }
   const auto points = sweep.points_in_body_m();
   const auto kept = map_downsampler.run(points, static_cast<float>(config.map_voxel_m));
   const geometry::RigidTransform& pose = belief->state.odom_from_body;
@@ -205,9 +214,11 @@ TrackedGroup Tracker::Impl::start(const sync::MeasureGroup& group) {
   TrackedGroup waiting;
   waiting.stamp = group.end;
   if (!belief) return waiting;
-  const geometry::RigidTransform pose = belief->state.odom_from_body;
-  const PathKnot here{group.end, pose};
-  sweep.deskew(std::span(&here, 1), pose.inverse());
+  std::vector<PathKnot> path = {{group.end, belief->state.odom_from_body}};
+  // The speed is unknown, but the gyro tells how the body turned.
+  if (with_imu)
+    path = predict_with_imu(*belief, imu, *rig.imu, free_motion.in_a_hole(), {group.begin, group.end}).path;
+  sweep.deskew(path, path.back().odom_from_body.inverse());
   ScanUpdateResult first;
   first.updated = true;  // this pose defines odom
   extend_map(first);

@@ -48,6 +48,7 @@ struct Tracker::Impl {
   ImuInitialiser initialiser;
   bool with_imu;               ///< decided at the first pose, then fixed
   int groups_without_imu = 0;  ///< in a row, before the first pose
+  int scans_to_redraw = 0;     ///< of a start in motion
   std::optional<HostTime> last_end;
   std::optional<FilterBelief> belief;
   HostTime belief_time{};           ///< last_end, or the middle of its points without an IMU

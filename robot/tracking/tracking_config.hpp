@@ -16,7 +16,8 @@ struct TrackingConfig {
   int threads = 1;  ///< threads of the parallel loops; the result does not depend on it, [1, 64]
 
   double init_s = 0.3;  ///< IMU data gathered for gravity and the gyro bias before the first pose, [0.05, 10]
-  double init_accel_spread_max_mps2 = 0.4;  ///< more spread than this: the start counts as moving, (0, 10]
+  double init_accel_spread_max_mps2 =
+      0.4;  ///< more spread, the IMU's noise apart: the start counts as moving, (0, 10]
   double init_gyro_rate_max_radps =
       0.05;  ///< a mean rate or spread above: the start counts as moving, (0, 1]
   double init_moving_speed_sigma_mps =
