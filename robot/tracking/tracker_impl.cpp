@@ -145,6 +145,12 @@ ScanUpdateResult Tracker::Impl::update(Prediction& prediction, HostTime at) {
     return result;
   }
   correct_path(prediction.path, at, predicted, result.belief.state);
+  if (scans_to_redraw == kRedrawnScans) {
+    // The map is the first scan, as little deskewed as this one was: only like that do they match. The map is
+    // now drawn from this scan, deskewed.
+    sweep.deskew(prediction.path, result.belief.state.odom_from_body.inverse());
+    return result;
+  }
   const ScanUpdateResult again = match(prediction, result.belief.state);
   return again.updated ? again : result;
 }
@@ -210,7 +216,7 @@ TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUp
 TrackedGroup Tracker::Impl::start(const sync::MeasureGroup& group) {
   initialise(group);
   last_end = group.end;
-  belief_time = group.end;
+  belief_time = with_imu ? group.end : sweep.middle();
   TrackedGroup waiting;
   waiting.stamp = group.end;
   if (!belief) return waiting;
@@ -222,6 +228,7 @@ TrackedGroup Tracker::Impl::start(const sync::MeasureGroup& group) {
   ScanUpdateResult first;
   first.updated = true;  // this pose defines odom
   extend_map(first);
+  scans_to_redraw = kRedrawnScans;
   return report(group, first);
 }
 

@@ -16,6 +16,8 @@
 
 namespace edgesplat::tracking {
 
+constexpr int kRedrawnScans = 4;
+
 /// The stages of one group, in their order. See Tracker.
 struct Tracker::Impl {
   Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in);
