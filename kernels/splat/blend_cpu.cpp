@@ -84,13 +84,16 @@ void write_tile(const Tile& tile, int column, int row, const View& view, const R
 void blend_tile(std::span<const Splat> splats, std::span<const std::uint32_t> list, int column, int row,
                 Tile& tile) {
   constexpr std::size_t kCheckEvery = 16;  // looking whether the tile is full costs about one splat
+  constexpr auto kRows = static_cast<float>(kTilePx);
   const auto x0 = static_cast<float>(column * kTilePx);
   const auto y0 = static_cast<float>(row * kTilePx);
   clear(tile);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Splat& s = splats[list[i]];
-    const int first = std::max(0, static_cast<int>(std::ceil(s.v_px - s.half_height_px - y0)));
-    const int last = std::min(kTilePx - 1, static_cast<int>(std::floor(s.v_px + s.half_height_px - y0)));
+    // Clamped as floats: a splat may be larger than any int.
+    const int first = static_cast<int>(std::clamp(std::ceil(s.v_px - s.half_height_px - y0), 0.0F, kRows));
+    const int last =
+        static_cast<int>(std::clamp(std::floor(s.v_px + s.half_height_px - y0), -1.0F, kRows - 1));
     for (int y = first; y <= last; ++y) add_to_row(s, x0, y0 + static_cast<float>(y) - s.v_px, y, tile);
     if (i % kCheckEvery == kCheckEvery - 1 && !any_active(tile)) return;
   }

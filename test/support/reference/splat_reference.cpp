@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "test/support/reference/splat_reference.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace edgesplat::test {
+namespace {
+
+/// Real spherical harmonics up to degree 3 from associated Legendre functions with the Condon-Shortley phase,
+/// order m = -l..l: the definition, not the usual table of polynomials.
+std::array<double, 16> spherical_harmonics(const Eigen::Vector3d& d) {
+  const double phi = std::atan2(d.y(), d.x());
+  std::array<double, 16> out{};
+  std::size_t k = 0;
+  for (int l = 0; l <= 3; ++l) {
+    for (int m = -l; m <= l; ++m) {
+      const int a = std::abs(m);
+      double ratio = 1.0;  // (l - a)! / (l + a)!
+      for (int i = l - a + 1; i <= l + a; ++i) ratio /= i;
+      const double norm = std::sqrt((2.0 * l + 1.0) / (4.0 * std::numbers::pi) * ratio);
+      // std::assoc_legendre leaves the phase (-1)^m out.
+      const double phase = a % 2 == 0 ? 1.0 : -1.0;
+      const double legendre =
+          phase * std::assoc_legendre(static_cast<unsigned>(l), static_cast<unsigned>(a), d.z());
+      double angular = 1.0;
+      if (m > 0) angular = std::numbers::sqrt2 * std::cos(a * phi);
+      if (m < 0) angular = std::numbers::sqrt2 * std::sin(a * phi);
+      out[k++] = norm * legendre * angular;
+    }
+  }
+  return out;
+}
+
+Eigen::Vector3d colour_of(const gaussian::GaussianCloud& cloud, std::size_t row,
+                          const Eigen::Vector3d& direction) {
+  const std::array<double, 16> basis = spherical_harmonics(direction);
+  const std::size_t floats = cloud.sh_floats_each();
+  Eigen::Vector3d rgb = Eigen::Vector3d::Constant(0.5);
+  for (std::size_t k = 0; k < floats / 3; ++k)
+    for (int c = 0; c < 3; ++c)
+      rgb[c] += basis[k] * cloud.sh[row * floats + 3 * k + static_cast<std::size_t>(c)];
+  return rgb.cwiseMax(0.0);
+}
+
+std::optional<ReferenceSplat> splat_of(const gaussian::GaussianCloud& cloud, std::size_t row,
+                                       const geometry::CameraModel& camera,
+                                       const geometry::RigidTransform& camera_from_map,
+                                       const ReferenceOptions& options) {
+  const Eigen::Vector3d mean = Eigen::Vector3f(&cloud.means_m[3 * row]).cast<double>();
+  const Eigen::Vector3d p = camera_from_map * mean;
+  if (p.z() <= options.near_m) return std::nullopt;
+  const float* q = &cloud.quats_xyzw[4 * row];
+  const Eigen::Matrix3d R = Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized().toRotationMatrix();
+  const Eigen::Vector3d scale = Eigen::Vector3f(&cloud.log_scales[3 * row]).cast<double>().array().exp();
+  const Eigen::Matrix3d sigma = R * scale.cwiseAbs2().asDiagonal() * R.transpose();
+  const double x_limit = 1.3 * 0.5 * camera.width_px / camera.fx_px;
+  const double y_limit = 1.3 * 0.5 * camera.height_px / camera.fy_px;
+  const double x = std::clamp(p.x() / p.z(), -x_limit, x_limit);
+  const double y = std::clamp(p.y() / p.z(), -y_limit, y_limit);
+  Eigen::Matrix<double, 2, 3> J;
+  J << camera.fx_px / p.z(), 0.0, -camera.fx_px * x / p.z(), 0.0, camera.fy_px / p.z(),
+      -camera.fy_px * y / p.z();
+  const Eigen::Matrix3d W = camera_from_map.rotation.toRotationMatrix();
+  ReferenceSplat splat;
+  splat.covariance_px2 =
+      J * W * sigma * W.transpose() * J.transpose() + options.low_pass_px2 * Eigen::Matrix2d::Identity();
+  splat.centre_px = {camera.fx_px * p.x() / p.z() + camera.cx_px,
+                     camera.fy_px * p.y() / p.z() + camera.cy_px};
+  splat.rgb = colour_of(cloud, row, (mean - camera_from_map.inverse().translation_m).normalized());
+  splat.opacity = 1.0 / (1.0 + std::exp(-static_cast<double>(cloud.opacity_logits[row])));
+  splat.depth_m = p.z();
+  splat.row = row;
+  return splat;
+}
+
+}  // namespace
+
+std::vector<ReferenceSplat> reference_splats(const gaussian::GaussianCloud& cloud,
+                                             const geometry::CameraModel& camera,
+                                             const geometry::RigidTransform& camera_from_map,
+                                             const ReferenceOptions& options) {
+  std::vector<ReferenceSplat> splats;
+  for (std::size_t row = 0; row < cloud.size(); ++row)
+    if (auto splat = splat_of(cloud, row, camera, camera_from_map, options)) splats.push_back(*splat);
+  std::stable_sort(splats.begin(), splats.end(),
+                   [](const ReferenceSplat& a, const ReferenceSplat& b) { return a.depth_m < b.depth_m; });
+  return splats;
+}
+
+ReferencePicture reference_render(const gaussian::GaussianCloud& cloud, const geometry::CameraModel& camera,
+                                  const geometry::RigidTransform& camera_from_map,
+                                  const ReferenceOptions& options) {
+  const auto splats = reference_splats(cloud, camera, camera_from_map, options);
+  std::vector<Eigen::Matrix2d> inverses;
+  for (const ReferenceSplat& splat : splats) inverses.push_back(splat.covariance_px2.inverse());
+  ReferencePicture picture;
+  for (int y = 0; y < camera.height_px; ++y) {
+    for (int x = 0; x < camera.width_px; ++x) {
+      Eigen::Vector3d colour = Eigen::Vector3d::Zero();
+      double depth_m = 0.0;
+      double transmittance = 1.0;
+      for (std::size_t i = 0; i < splats.size(); ++i) {
+        const Eigen::Vector2d d = Eigen::Vector2d(x, y) - splats[i].centre_px;
+        const double alpha = std::min(0.99, splats[i].opacity * std::exp(-0.5 * d.dot(inverses[i] * d)));
+        if (alpha < 1.0 / 255.0) continue;
+        if (transmittance * (1.0 - alpha) < 1e-4) break;
+        colour += transmittance * alpha * splats[i].rgb;
+        depth_m += transmittance * alpha * splats[i].depth_m;
+        transmittance *= 1.0 - alpha;
+      }
+      picture.colour.emplace_back(colour + transmittance * options.background);
+      picture.depth_sum_m.push_back(depth_m);
+      picture.alpha.push_back(1.0 - transmittance);
+    }
+  }
+  return picture;
+}
+
+}  // namespace edgesplat::test
