@@ -140,7 +140,7 @@ TEST(Mcap, SortsMessagesAcrossOverlappingChunks) {
   for (std::size_t i = 0; i < sequence.size(); ++i) ASSERT_EQ(sequence[i], expected[i].second) << i;
 }
 
-TEST(Mcap, ManyOverlappingChunksStayWithinTheMemoryBudget) {
+TEST(Mcap, MoreOverlappingChunksThanMayBeOpenComeInOrder) {
   // 30 chunks of 4 MiB that all cover the same time: more than the reader may hold open.
   const TemporaryFolder folder;
   auto writer = McapWriter::create(folder / "a.mcap", {.chunk_bytes = 1U << 22U});
