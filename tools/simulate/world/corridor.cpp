@@ -14,6 +14,10 @@ namespace {
 /// leaves them 0.25 m from furniture and 0.5 m from the robot's middle.
 constexpr double kLength_m = 18.0, kDepth_m = 12.0, kHalfWidth_m = 1.5, kHeight_m = 2.8;
 constexpr double kLaneOffset_m = 0.8;
+constexpr double kCornerReach_m = 1.0;  ///< corners of the waypoints are means over this reach
+/// A mean over this reach rounds corners as tools/simulate/route.hpp does (a Gaussian of 0.6 m has its
+/// variance).
+constexpr double kRouteReach_m = 1.04;
 
 std::uint32_t plaster(Scene& s, const Rgb& colour, float contrast, std::uint32_t seed) {
   return s.add({Pattern::kPlaster, colour, colour, 1.0F, contrast, 0.2F + 0.7F * colour.mean(), seed});
@@ -149,11 +153,11 @@ Scene make_corridor(std::uint64_t seed) {
   s.light.ambient_reach_m = 1.2;
   s.light.texel_m = 0.10;
 
-  Polyline waypoints = resample(smooth_closed(corners, 0.8), true, 0.3);
+  Polyline waypoints = resample(smooth_closed(corners, kCornerReach_m), true, 0.2);
   for (Eigen::Vector3d& p : waypoints) p.z() = 0.6;
   s.path = {waypoints, true, 1.3};
-  // The robot's route rounds the corners once more (tools/simulate/route.hpp); lanes follow where it drives.
-  const Polyline driven = smooth_closed(smooth_closed(corners, 0.8), 1.5);
+  // The robot's route rounds the corners once more; lanes follow where it drives.
+  const Polyline driven = smooth_closed(smooth_closed(corners, kCornerReach_m), kRouteReach_m);
   s.footways = {{offset_left(driven, true, -kLaneOffset_m), true, 0.85},
                 {offset_left(driven, true, kLaneOffset_m), true, -1.15}};
   return s;

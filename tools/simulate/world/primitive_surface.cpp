@@ -85,9 +85,11 @@ Vector3d taper_normal(const Primitive& p, std::uint32_t face) {
 
 SurfacePoint round_surface(const Primitive& p, const Vector3d& q) {
   const double radius = p.half_m.x();
-  const double u = (std::atan2(q.y(), q.x()) + pi) * radius;
+  const bool oval = p.shape == Shape::kEllipsoid;
+  const double angle = oval ? std::atan2(q.y() / p.half_m.y(), q.x() / radius) : std::atan2(q.y(), q.x());
+  const double u = (angle + pi) * radius;
   SurfacePoint s;
-  if (p.shape == Shape::kEllipsoid) {
+  if (oval) {
     s.normal = q.cwiseQuotient(p.half_m.cwiseAbs2()).normalized();
     s.uv_m = {u, (std::asin(std::clamp(q.z() / p.half_m.z(), -1.0, 1.0)) + pi / 2) * p.half_m.z()};
   } else if (p.shape == Shape::kCapsule) {
