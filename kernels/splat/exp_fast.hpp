@@ -9,7 +9,7 @@ namespace edgesplat::splat {
 
 /// exp(x) for x in [-20, 0], relative error under 2e-6; no branches and no table, so that loops over pixels
 /// vectorise. Cephes-style: 2^n times a polynomial of the remainder.
-inline float exp_fast(float x) {
+[[gnu::always_inline]] inline float exp_fast(float x) {
   const float scaled = x * 1.44269504F;
   const float shifted = scaled + 12582912.0F;  // 1.5 * 2^23: rounds to the nearest integer in the low bits
   const float n = shifted - 12582912.0F;

@@ -57,21 +57,30 @@ bool touches(const Splat& s, int column, int row, float reach2) {
   return least_distance2(s, x0, y0, x0 + kSpan, y0 + kSpan) <= reach2;
 }
 
-void fill_row(std::span<const Splat> splats, int row, TileLists& lists,
-              std::vector<std::vector<std::uint32_t>>& tiles) {
+/// The splats of one row of tiles, nearest first.
+using RowList = std::vector<std::uint32_t>;
+
+/// One pass over all splats, so that a row need not look at those of the others.
+std::vector<RowList> bin_by_row(std::span<const Splat> splats, int rows) {
+  std::vector<RowList> lists(static_cast<std::size_t>(rows));
   for (std::size_t i = 0; i < splats.size(); ++i) {
+    const Range range = tiles_touched(splats[i].v_px, splats[i].half_height_px, rows);
+    for (int row = range.first; row < range.last; ++row)
+      lists[static_cast<std::size_t>(row)].push_back(static_cast<std::uint32_t>(i));
+  }
+  return lists;
+}
+
+void fill_row(std::span<const Splat> splats, const RowList& of_row, int row, TileLists& lists,
+              std::vector<std::vector<std::uint32_t>>& tiles) {
+  for (const std::uint32_t i : of_row) {
     const Splat& s = splats[i];
-    const Range rows = tiles_touched(s.v_px, s.half_height_px, lists.rows);
-    if (row < rows.first || row >= rows.last) continue;
     const Range columns = tiles_touched(s.u_px, s.half_width_px, lists.columns);
-    const bool single = columns.last - columns.first <= 1 && rows.last - rows.first <= 1;
     // A hair more than the blend's own threshold, so that rounding never loses a pixel.
     const float reach2 = 2.0F * std::log(s.opacity / kMinAlpha) * 1.0001F + 1e-4F;
     for (int column = columns.first; column < columns.last; ++column) {
-      if (single || touches(s, column, row, reach2)) {
-        tiles[static_cast<std::size_t>(row * lists.columns + column)].push_back(
-            static_cast<std::uint32_t>(i));
-      }
+      if (touches(s, column, row, reach2))
+        tiles[static_cast<std::size_t>(row * lists.columns + column)].push_back(i);
     }
   }
 }
@@ -83,7 +92,10 @@ TileLists make_tile_lists(std::span<const Splat> splats, int width_px, int heigh
   lists.columns = (width_px + kTilePx - 1) / kTilePx;
   lists.rows = (height_px + kTilePx - 1) / kTilePx;
   std::vector<std::vector<std::uint32_t>> tiles(static_cast<std::size_t>(lists.columns * lists.rows));
-  tbb::parallel_for(0, lists.rows, [&](int row) { fill_row(splats, row, lists, tiles); });
+  const std::vector<RowList> by_row = bin_by_row(splats, lists.rows);
+  tbb::parallel_for(0, lists.rows, [&](int row) {
+    fill_row(splats, by_row[static_cast<std::size_t>(row)], row, lists, tiles);
+  });
   lists.starts.reserve(tiles.size() + 1);
   lists.starts.push_back(0);
   for (const auto& tile : tiles)
