@@ -22,6 +22,12 @@ void offer(Neighbours& best, std::uint32_t index, float squared_m2) {
   best.squared_m2[at] = squared_m2;
 }
 
+/// Like voxel_key, but cells in a row along z have keys in a row, also across zero.
+std::uint64_t ordered_key(std::int64_t x, std::int64_t y, std::int64_t z) {
+  constexpr std::int64_t kMiddle = 1 << 20;
+  return pointcloud::voxel_key(x + kMiddle, y + kMiddle, z + kMiddle);
+}
+
 }  // namespace
 
 NeighbourGrid::NeighbourGrid(std::span<const Eigen::Vector3f> points_m, float edge_m)
@@ -30,8 +36,8 @@ NeighbourGrid::NeighbourGrid(std::span<const Eigen::Vector3f> points_m, float ed
   for (std::size_t i = 0; i < points_m.size(); ++i) {
     const Eigen::Vector3f cell = points_m[i] / edge_m;
     by_cell_.emplace_back(
-        pointcloud::voxel_key(pointcloud::floor_to_cell(cell.x()), pointcloud::floor_to_cell(cell.y()),
-                              pointcloud::floor_to_cell(cell.z())),
+        ordered_key(pointcloud::floor_to_cell(cell.x()), pointcloud::floor_to_cell(cell.y()),
+                    pointcloud::floor_to_cell(cell.z())),
         static_cast<std::uint32_t>(i));
   }
   std::sort(by_cell_.begin(), by_cell_.end());
@@ -45,13 +51,12 @@ Neighbours NeighbourGrid::nearest(const Eigen::Vector3f& p_m) const {
   const std::int64_t z = pointcloud::floor_to_cell(cell.z());
   for (std::int64_t dx = -1; dx <= 1; ++dx) {
     for (std::int64_t dy = -1; dy <= 1; ++dy) {
-      for (std::int64_t dz = -1; dz <= 1; ++dz) {
-        const std::uint64_t key = pointcloud::voxel_key(x + dx, y + dy, z + dz);
-        auto entry = std::lower_bound(by_cell_.begin(), by_cell_.end(), std::pair{key, std::uint32_t{0}});
-        for (; entry != by_cell_.end() && entry->first == key; ++entry) {
-          const float squared_m2 = (points_m_[entry->second] - p_m).squaredNorm();
-          if (squared_m2 <= edge_m_ * edge_m_) offer(best, entry->second, squared_m2);
-        }
+      const std::uint64_t last = ordered_key(x + dx, y + dy, z + 1);
+      auto entry = std::lower_bound(by_cell_.begin(), by_cell_.end(),
+                                    std::pair{ordered_key(x + dx, y + dy, z - 1), std::uint32_t{0}});
+      for (; entry != by_cell_.end() && entry->first <= last; ++entry) {
+        const float squared_m2 = (points_m_[entry->second] - p_m).squaredNorm();
+        if (squared_m2 <= edge_m_ * edge_m_) offer(best, entry->second, squared_m2);
       }
     }
   }

@@ -129,15 +129,17 @@ Shape shape_at(const Vector3f& p_m, float cell_m, const Surroundings& around, co
   Vector3f mean_m = Vector3f::Zero();
   for (std::size_t i = 0; i < neighbours.count; ++i) mean_m += around.point(neighbours.index[i]);
   mean_m /= static_cast<float>(neighbours.count);
-  Eigen::Matrix3f scatter = Eigen::Matrix3f::Zero();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < neighbours.count; ++i) {
-    const Vector3f d = around.point(neighbours.index[i]) - mean_m;
+    const Eigen::Vector3d d = (around.point(neighbours.index[i]) - mean_m).cast<double>();
     scatter += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(scatter);
-  const Vector3f& values = solver.eigenvalues();  // ascending
-  if (!(values[0] <= options.plane_max_ratio * values[1]) || values[1] <= 0.0F) return shape;
-  const Vector3f normal = solver.eigenvectors().col(0);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(scatter);
+  const Eigen::Vector3d& values = solver.eigenvalues();  // ascending
+  if (!(values[0] <= static_cast<double>(options.plane_max_ratio) * values[1]) || values[1] <= 0.0)
+    return shape;
+  const Vector3f normal = solver.eigenvectors().col(0).cast<float>();
   shape.map_from_gaussian = Eigen::Quaternionf::FromTwoVectors(Vector3f::UnitZ(), normal).normalized();
   shape.sigma_m.z() = std::max(options.flat_ratio * sigma_m, 0.2F * options.min_sigma_m);
   return shape;
