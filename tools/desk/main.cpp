@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   desk::VerbContext context;
   desk::add_evaluate_verb(app, context);
   desk::add_inspect_verb(app, context);
+  desk::add_odometry_verb(app, context);
   desk::add_report_verb(app, context);
   desk::add_simulate_verb(app, context);
   desk::add_stream_verb(app, context);

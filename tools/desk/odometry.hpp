@@ -3,64 +3,51 @@
 #pragma once
 
 #include "common/base/result.hpp"
-#include "common/geometry/rigid_transform.hpp"
+#include "common/io/trajectory_file.hpp"
 #include "common/sensor/rig.hpp"
-#include "common/time/time.hpp"
+#include "common/time/clock.hpp"
 #include "robot/sync/measure_group.hpp"
 #include "robot/tracking/tracking_config.hpp"
 
-#include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <span>
-#include <string_view>
 #include <vector>
 
 namespace edgesplat::desk {
 
-/// When the rays of a scan were fired.
-enum class ScanTiming {
-  kInstant,           ///< all at the scan's stamp
-  kAzimuthClockwise,  ///< a spinning LiDAR's turn backwards -> left... seen from above, ending at the stamp
+/// When the rays of a whole scan were fired.
+enum class ScanTiming : std::uint8_t {
+  kInstant,  ///< all at the scan's stamp: scans whose motion was already removed, or a slow robot
+  kAzimuth,  ///< in one turn that ends at the stamp, clockwise seen from above, from behind to behind
+             ///< (HDL-64E)
 };
-
-/// A folder of KITTI scans.
-struct ScanFolder {
-  std::vector<std::filesystem::path> files;  ///< *.bin in the order of their names
-  std::vector<HostTime> stamps;              ///< one a file: times.txt, else 10 Hz from zero
-};
-
-/// Errors: kNotFound without a .bin file, kCorrupt where times.txt does not fit the files.
-[[nodiscard]] Result<ScanFolder> open_scan_folder(const std::filesystem::path& folder);
-/// Points of float32 x, y, z, intensity. kCorrupt where the length is no multiple of 16 bytes.
-[[nodiscard]] Result<std::vector<sync::GroupPoint>> read_scan(const std::filesystem::path& file);
-/// EuRoC's layout: t_ns, gyro x y z (rad/s), accelerometer x y z (m/s^2), commas; '#' and empty rows are skipped.
-[[nodiscard]] Result<std::vector<sync::GroupImu>> read_imu_csv(const std::filesystem::path& file);
-[[nodiscard]] Result<std::vector<sync::GroupImu>> parse_imu_csv(std::string_view text, std::string_view name);
-/// The samples that belong to a group: see MeasureGroup::imu.
-[[nodiscard]] std::vector<sync::GroupImu> imu_between(std::span<const sync::GroupImu> imu, HostTime begin,
-                                                      HostTime end);
-/// Gives every point the time its azimuth tells, for a turn that ends at the stamp.
-void set_azimuth_times(std::span<sync::GroupPoint> points, nanoseconds turn);
 
 struct OdometryJob {
-  std::filesystem::path lidar_folder;
-  std::optional<std::filesystem::path> imu_file;
-  sensor::Rig rig;
+  std::filesystem::path lidar;               ///< a folder of KITTI .bin scans, or a recording
+  std::optional<std::filesystem::path> imu;  ///< EuRoC's CSV, on the scans' time base
+  std::optional<sensor::Rig> rig;            ///< instead of the recording's own
   tracking::TrackingConfig tracking;
   ScanTiming timing = ScanTiming::kInstant;
 };
 
 struct OdometryRun {
-  std::vector<HostTime> stamps;
-  std::vector<geometry::RigidTransform> odom_from_body;  ///< scans before the first pose are left out
-  std::vector<double> track_ms;                          ///< time in track(), one a scan
-  std::size_t scans = 0;
-  std::size_t coasted = 0;
+  std::vector<io::StampedPose> poses;  ///< odom_from_body, one a group once the first pose is known
+  std::vector<double> track_ms;        ///< time in Tracker::track, one a group
+  std::int64_t groups = 0;
+  std::int64_t coasted_groups = 0;
+  std::int64_t map_bytes = 0;
 };
 
-/// Tracks every scan of a folder. `clock` times the stages.
+/// The defaults of tracking for a job: cells and thinning for streets where the LiDAR is a 64-line one (a
+/// folder of scans), those of TrackingConfig for a recording.
+[[nodiscard]] tracking::TrackingConfig default_tracking(const std::filesystem::path& lidar);
+
+/// Tracks a whole recording, as fast as it goes. `clock` times the groups. Errors of reading, and
+/// kInvalidArgument where nothing in it could be tracked.
 [[nodiscard]] Result<OdometryRun> run_odometry(const OdometryJob& job, const Clock& clock);
+
+/// Gives every point of a group the time that its azimuth tells for kAzimuth.
+void set_azimuth_times(sync::MeasureGroup& group);
 
 }  // namespace edgesplat::desk

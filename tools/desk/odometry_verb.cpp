@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "common/config/config_file.hpp"
+#include "common/metrics/process_usage.hpp"
+#include "common/sensor/rig_config.hpp"
+#include "tools/desk/odometry.hpp"
+#include "tools/desk/verbs.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <numeric>
+#include <string>
+
+namespace edgesplat::desk {
+namespace {
+
+struct OdometryOptions {
+  std::string lidar;
+  std::string imu;
+  std::string rig;
+  std::string out;
+  std::vector<std::string> settings;
+  ScanTiming timing = ScanTiming::kInstant;
+  bool json = false;
+};
+
+Result<OdometryJob> job_of(const OdometryOptions& options) {
+  OdometryJob job;
+  job.lidar = options.lidar;
+  job.timing = options.timing;
+  job.tracking = default_tracking(job.lidar);
+  if (!options.imu.empty()) job.imu = options.imu;
+  if (!options.rig.empty()) EDGESPLAT_TRY(job.rig, sensor::load_rig(options.rig));
+  config::ConfigFile settings;
+  for (const std::string& assignment : options.settings) {
+    EDGESPLAT_TRY_STATUS(settings.apply_override(assignment));
+  }
+  EDGESPLAT_TRY_STATUS(settings.read_into(job.tracking));
+  return job;
+}
+
+nlohmann::json summary_of(const OdometryRun& run) {
+  std::vector<double> sorted = run.track_ms;
+  std::sort(sorted.begin(), sorted.end());
+  const auto quantile = [&](double share) {
+    return sorted.empty() ? 0.0
+                          : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  };
+  double path_m = 0.0;
+  for (std::size_t i = 1; i < run.poses.size(); ++i) {
+    path_m +=
+        (run.poses[i].world_from_body.translation_m - run.poses[i - 1].world_from_body.translation_m).norm();
+  }
+  const metrics::ProcessUsage usage = metrics::process_usage();
+  return {{"groups", run.groups},
+          {"poses", run.poses.size()},
+          {"coasted_groups", run.coasted_groups},
+          {"path_m", path_m},
+          {"track_ms", {{"p50", quantile(0.5)}, {"p95", quantile(0.95)}, {"max", quantile(1.0)}}},
+          {"map_bytes", run.map_bytes},
+          {"cpu_s", usage.cpu_s},
+          {"peak_rss_bytes", usage.peak_rss_bytes}};
+}
+
+Status run_verb(const OdometryOptions& options) {
+  EDGESPLAT_TRY(const OdometryJob job, job_of(options));
+  const SteadyClock clock;
+  EDGESPLAT_TRY(const OdometryRun run, run_odometry(job, clock));
+  EDGESPLAT_TRY_STATUS(io::write_tum(options.out, run.poses));
+  const nlohmann::json summary = summary_of(run);
+  if (options.json) {
+    std::fputs((summary.dump() + "\n").c_str(), stdout);
+    return {};
+  }
+  const std::string words = fmt::format(
+      "{} groups, {} poses, {} coasted; {:.2f} m; {:.1f} ms a group (95 %: {:.1f}, most: {:.1f}); "
+      "CPU {:.1f} s, memory {:.0f} MB at most; wrote {}\n",
+      run.groups, run.poses.size(), run.coasted_groups, summary["path_m"].get<double>(),
+      summary["track_ms"]["p50"].get<double>(), summary["track_ms"]["p95"].get<double>(),
+      summary["track_ms"]["max"].get<double>(), summary["cpu_s"].get<double>(),
+      summary["peak_rss_bytes"].get<double>() * 1e-6, options.out);
+  std::fputs(words.c_str(), stderr);
+  return {};
+}
+
+}  // namespace
+
+void add_odometry_verb(CLI::App& app, VerbContext& context) {
+  auto* verb =
+      app.add_subcommand("odometry", "Track a folder of LiDAR scans or a recording, without a server");
+  auto options = std::make_shared<OdometryOptions>();
+  verb->add_option("--lidar", options->lidar,
+                   "Folder of KITTI .bin scans (times.txt or 10 Hz), or a recording")
+      ->required();
+  verb->add_option("--imu", options->imu,
+                   "IMU samples, CSV: t_ns, gyro x y z (rad/s), accelerometer x y z (m/s^2)");
+  verb->add_option("--rig", options->rig,
+                   "rig.toml with the LiDAR's noise and place, instead of the recording's");
+  verb->add_option("--out", options->out, "Trajectory to write, TUM format")->required();
+  verb->add_option("--timing", options->timing, "When a scan's rays were fired: instant or azimuth (HDL-64E)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, ScanTiming>{
+          {"instant", ScanTiming::kInstant}, {"azimuth", ScanTiming::kAzimuth}}));
+  verb->add_option("--set", options->settings, "A tracking setting, e.g. root_voxel_m=1 (repeatable)");
+  verb->add_flag("--json", options->json, "Print one JSON line on stdout");
+  verb->callback([options, &context] { context.work = [options] { return run_verb(*options); }; });
+}
+
+}  // namespace edgesplat::desk
