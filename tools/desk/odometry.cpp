@@ -87,7 +87,9 @@ Result<OdometryRun> run_odometry(const OdometryJob& job, const Clock& clock) {
   EDGESPLAT_TRY(replay::ReplaySource source, replay::ReplaySource::open(job.lidar));
   EDGESPLAT_TRY(const sensor::Rig rig, choose_rig(job, source.rig()));
   std::vector<sensor::ImuSample> imu;
-  if (job.imu) EDGESPLAT_TRY(imu, read_imu_csv(*job.imu));
+  if (job.imu) {
+    EDGESPLAT_TRY(imu, read_imu_csv(*job.imu));
+  }
   EDGESPLAT_TRY(const auto tracker, tracking::Tracker::create(job.tracking, rig));
   sync::GroupBuilder builder({}, rig);
   OdometryLoop loop(*tracker, job.timing, clock);

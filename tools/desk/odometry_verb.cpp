@@ -35,7 +35,9 @@ Result<OdometryJob> job_of(const OdometryOptions& options) {
   job.timing = options.timing;
   job.tracking = default_tracking(job.lidar);
   if (!options.imu.empty()) job.imu = options.imu;
-  if (!options.rig.empty()) EDGESPLAT_TRY(job.rig, sensor::load_rig(options.rig));
+  if (!options.rig.empty()) {
+    EDGESPLAT_TRY(job.rig, sensor::load_rig(options.rig));
+  }
   config::ConfigFile settings;
   for (const std::string& assignment : options.settings) {
     EDGESPLAT_TRY_STATUS(settings.apply_override(assignment));
