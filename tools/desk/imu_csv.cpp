@@ -66,14 +66,19 @@ std::optional<sensor::ImuSample> parse_row(std::string_view row) {
   return sample;
 }
 
+/// "1403636763.853,,,,,,": what a spreadsheet leaves of a row without a measurement.
+bool has_no_values(std::string_view row) {
+  const auto comma = row.find(',');
+  return comma != std::string_view::npos && row.find_first_not_of(", \t", comma) == std::string_view::npos;
+}
+
 }  // namespace
 
 Result<std::vector<sensor::ImuSample>> parse_imu_csv(std::string_view text, std::string_view name) {
   std::vector<sensor::ImuSample> samples;
   for (int line = 1; !text.empty(); ++line) {
     const std::string_view row = trim(take_until(text, '\n'));
-    if (row.empty() || row.front() == '#' || row.find_first_not_of(", \t") == std::string_view::npos)
-      continue;
+    if (row.empty() || row.front() == '#' || has_no_values(row)) continue;
     const auto sample = parse_row(row);
     if (!sample) {
       return fail(

@@ -13,7 +13,7 @@ TEST(ImuCsv, ReadsEurocRows) {
   const auto samples = parse_imu_csv(
       "#timestamp "
       "[ns],w_x\n1403636579758555392,-0.1,0.2,3e-2,8.1,-0.37,-2.4\r\n1.403636579763555584E+018,0,0,0,0,0,9."
-      "81\n\n,,,,,,\n",
+      "81\n\n,,,,,,\n1403636763.853,,,,,,\n",
       "imu.csv");
   ASSERT_TRUE(samples.has_value()) << samples.error().context;
   ASSERT_EQ(samples->size(), 2U);
