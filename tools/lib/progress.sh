@@ -75,6 +75,7 @@ apt_filter() {
       kilobytes=${BASH_REMATCH[1]//,/}
       [[ ${BASH_REMATCH[4]} == k ]] || kilobytes=$((kilobytes * 1000))
     elif [[ $line =~ ^dlstatus:[0-9]+:([0-9]+) ]]; then
+      ((kilobytes > 0)) || continue # still the package lists
       progress $((BASH_REMATCH[1] / 2)) 100 "$(per_second $((kilobytes * BASH_REMATCH[1] / 100))) kB/s"
     elif [[ $line =~ ^pmstatus:[^:]+(:[a-z0-9]+)?:([0-9]+)\.[0-9]+:(.*) ]]; then
       [[ ${BASH_REMATCH[3]} != Installed* ]] || installed=$((installed + 1))
