@@ -32,11 +32,14 @@ KeyframePictures show(const KeyframeFiles& files, std::vector<std::string>& miss
   const auto overlay = load(files.overlay, missing);
   const auto render = load(files.render, missing);
   KeyframePictures shown;
-  if (image && render) shown.psnr_db = psnr_db(*image, *render);
-  const std::string quality = shown.psnr_db ? fmt::format(", PSNR {:.1f} dB", *shown.psnr_db) : "";
-  shown.html = html_grid({figure(image, "keyframe " + files.number + ": camera"),
-                          figure(render, "Gaussians from the same pose" + quality),
-                          figure(overlay, "LiDAR points projected, coloured by distance")});
+  if (image && render) shown.quality = compare_render(*image, *render);
+  const std::string quality = shown.quality
+                                  ? fmt::format(", PSNR {:.1f} dB over the {:.0f} % that are mapped",
+                                                shown.quality->psnr_db, 100.0 * shown.quality->coverage)
+                                  : "";
+  shown.html = html_picture_grid({figure(image, "keyframe " + files.number + ": camera"),
+                                  figure(render, "Gaussians from the same pose" + quality),
+                                  figure(overlay, "LiDAR points projected, coloured by distance")});
   return shown;
 }
 

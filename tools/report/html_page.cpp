@@ -18,7 +18,8 @@ p{margin:.5rem 0;color:var(--soft)}
 .cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(210px,1fr));gap:.6rem}
 .card{background:var(--card);border-radius:8px;padding:.6rem .8rem}
 .card span{display:block;color:var(--soft);font-size:.8rem}.card b{font-size:1.1rem;font-weight:600}
-.grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,340px),1fr));gap:.8rem;align-items:start}
+.grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,420px),1fr));gap:.8rem;align-items:start}
+.grid.thirds{grid-template-columns:repeat(auto-fit,minmax(min(100%,320px),1fr))}
 figure{margin:0}figure img{width:100%;display:block;border-radius:6px}figcaption{font-size:.8rem;color:var(--soft)}
 svg{width:100%;height:auto;display:block;font:12px system-ui,sans-serif}
 svg text{fill:var(--text)}svg .title{font-weight:600;font-size:13px}
@@ -28,6 +29,12 @@ th,td{padding:.25rem .9rem .25rem 0;text-align:right;border-bottom:1px solid var
 th:first-child,td:first-child{text-align:left}th{color:var(--soft);font-weight:500}
 details{margin:.4rem 0}summary{cursor:pointer}pre{background:var(--card);padding:.6rem;overflow-x:auto;font-size:.8rem}
 )";
+
+std::string grid_of(std::string_view classes, const std::vector<std::string>& pieces) {
+  std::string html = "<div class=\"" + std::string(classes) + "\">\n";
+  for (const std::string& piece : pieces) html += "<div>" + piece + "</div>\n";
+  return html + "</div>\n";
+}
 
 }  // namespace
 
@@ -60,9 +67,11 @@ std::string html_table(const std::vector<std::vector<std::string>>& rows) {
 }
 
 std::string html_grid(const std::vector<std::string>& pieces) {
-  std::string html = "<div class=\"grid\">\n";
-  for (const std::string& piece : pieces) html += "<div>" + piece + "</div>\n";
-  return html + "</div>\n";
+  return grid_of("grid", pieces);
+}
+
+std::string html_picture_grid(const std::vector<std::string>& pieces) {
+  return grid_of("grid thirds", pieces);
 }
 
 std::string html_picture(std::string_view uri, std::string_view caption) {

@@ -17,8 +17,9 @@ namespace edgesplat::report {
 [[nodiscard]] std::string html_paragraph(std::string_view text);
 /// First row of texts is the header. Columns after the first are aligned right.
 [[nodiscard]] std::string html_table(const std::vector<std::vector<std::string>>& rows);
-/// Pieces of HTML side by side where there is room.
+/// Pieces of HTML side by side where there is room: two, and pictures three, on a wide page.
 [[nodiscard]] std::string html_grid(const std::vector<std::string>& pieces);
+[[nodiscard]] std::string html_picture_grid(const std::vector<std::string>& pieces);
 /// A picture by its data URI, with its caption below.
 [[nodiscard]] std::string html_picture(std::string_view uri, std::string_view caption);
 /// Text that opens on a click, e.g. a configuration file.

@@ -43,17 +43,28 @@ Result<std::string> embed_file(const std::filesystem::path& path, int max_width_
   return embed(picture, max_width_px);
 }
 
-std::optional<double> psnr_db(const sensor::ImageRgb8& a, const sensor::ImageRgb8& b) {
+std::optional<RenderQuality> compare_render(const sensor::ImageRgb8& camera,
+                                            const sensor::ImageRgb8& render) {
   constexpr double kEqual_db = 99.0;
-  if (a.width_px != b.width_px || a.height_px != b.height_px || a.empty()) return std::nullopt;
+  if (camera.width_px != render.width_px || camera.height_px != render.height_px) return std::nullopt;
   double squares = 0.0;
-  for (std::size_t i = 0; i < a.values.size(); ++i) {
-    const double difference = static_cast<double>(a.values[i]) - static_cast<double>(b.values[i]);
-    squares += difference * difference;
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i + 2 < render.values.size(); i += 3) {
+    if (render.values[i] == 0 && render.values[i + 1] == 0 && render.values[i + 2] == 0) continue;
+    ++covered;
+    for (std::size_t channel = i; channel < i + 3; ++channel) {
+      const double difference =
+          static_cast<double>(camera.values[channel]) - static_cast<double>(render.values[channel]);
+      squares += difference * difference;
+    }
   }
-  if (squares == 0.0) return kEqual_db;
-  return std::min(kEqual_db,
-                  10.0 * std::log10(255.0 * 255.0 * static_cast<double>(a.values.size()) / squares));
+  if (covered == 0) return std::nullopt;
+  RenderQuality quality;
+  quality.coverage = 3.0 * static_cast<double>(covered) / static_cast<double>(render.values.size());
+  const double mean_square = squares / (3.0 * static_cast<double>(covered));
+  quality.psnr_db =
+      mean_square > 0.0 ? std::min(kEqual_db, 10.0 * std::log10(255.0 * 255.0 / mean_square)) : kEqual_db;
+  return quality;
 }
 
 }  // namespace edgesplat::report

@@ -15,8 +15,14 @@ namespace edgesplat::report {
 [[nodiscard]] Result<std::string> embed(const sensor::ImageRgb8& picture, int max_width_px);
 [[nodiscard]] Result<std::string> embed_file(const std::filesystem::path& path, int max_width_px);
 
-/// Peak signal to noise ratio of two pictures of the same size, over all pixels and channels; nothing where
-/// the sizes differ, 99 dB for equal pictures.
-[[nodiscard]] std::optional<double> psnr_db(const sensor::ImageRgb8& a, const sensor::ImageRgb8& b);
+/// How well a rendered picture matches the camera's, where there is anything rendered at all.
+struct RenderQuality {
+  double psnr_db =
+      0.0;  ///< peak signal to noise ratio over the covered pixels, all channels; 99 for equal ones
+  double coverage = 0.0;  ///< share of the pixels that are covered: not pure black, the colour of nothing
+};
+/// Nothing where the sizes differ or nothing is covered.
+[[nodiscard]] std::optional<RenderQuality> compare_render(const sensor::ImageRgb8& camera,
+                                                          const sensor::ImageRgb8& render);
 
 }  // namespace edgesplat::report

@@ -44,12 +44,14 @@ std::vector<Tick> ticks_of(const AxisRange& range, int wanted) {
     }
   }
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
+  const bool in_thousands = std::max(std::abs(range.low), std::abs(range.high)) >= 1e4;
   std::vector<Tick> ticks;
   const double first = std::ceil(range.low / step - 1e-9);
   const double last = std::floor(range.high / step + 1e-9);
   for (double n = first; n <= last; n += 1.0) {
     const double value = n == 0.0 ? 0.0 : n * step;  // no "-0"
-    ticks.push_back({value, fmt::format("{:.{}f}", value, decimals)});
+    ticks.push_back(
+        {value, in_thousands ? fmt::format("{:g}k", value / 1e3) : fmt::format("{:.{}f}", value, decimals)});
   }
   return ticks;
 }

@@ -15,11 +15,11 @@ Result<Report> write_report(const ReportOptions& options) {
   Report report;
   report.references = find_references(run, options.input);
   const auto pictures = keyframe_pictures(run, options.max_keyframes);
-  std::vector<double> psnrs_db;
+  std::vector<RenderQuality> qualities;
   for (const KeyframePictures& picture : pictures) {
-    if (picture.psnr_db) psnrs_db.push_back(*picture.psnr_db);
+    if (picture.quality) qualities.push_back(*picture.quality);
   }
-  report.summary = summarise(run, report.references, psnrs_db);
+  report.summary = summarise(run, report.references, qualities);
   report.missing = run.missing;
   report.page = options.run / "report.html";
 
@@ -43,13 +43,13 @@ Result<Report> write_report(const ReportOptions& options) {
 std::string to_text(const Report& report) {
   std::string text;
   for (const SummaryRow& row : summary_rows(report.summary))
-    text += fmt::format("  {:<30}{}\n", row.label, row.value);
+    text += fmt::format("  {:<34}{}\n", row.label, row.value);
   for (const Reference& reference : report.references) {
-    text += fmt::format("  {:<30}ATE {:.3f} m, ETE {:.3f} m\n", "against " + reference.name,
+    text += fmt::format("  {:<34}ATE {:.3f} m, ETE {:.3f} m\n", "against " + reference.name,
                         reference.evaluation.absolute_m.rmse, reference.evaluation.end_to_end.distance_m);
   }
   for (const std::string& sentence : report.missing) text += "  not in the report: " + sentence + "\n";
-  return text + fmt::format("  {:<30}{}\n", "Report", report.page.string());
+  return text + fmt::format("  {:<34}{}\n", "Report", report.page.string());
 }
 
 }  // namespace edgesplat::report

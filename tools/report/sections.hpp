@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tools/report/picture_embed.hpp"
 #include "tools/report/references.hpp"
 #include "tools/report/run_folder.hpp"
 #include "tools/report/summary.hpp"
@@ -22,7 +23,7 @@ namespace edgesplat::report {
 /// One sampled keyframe, ready to show.
 struct KeyframePictures {
   std::string html;
-  std::optional<double> psnr_db;  ///< render against camera
+  std::optional<RenderQuality> quality;  ///< render against camera
 };
 /// Up to `limit` keyframes, evenly spread; damaged pictures are said in run.missing.
 [[nodiscard]] std::vector<KeyframePictures> keyframe_pictures(RunFolder& run, std::size_t limit);

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace edgesplat::report {
 namespace {
@@ -29,14 +28,16 @@ std::optional<double> peak_rss_mb(const nlohmann::json& metrics) {
   return process["peak_rss_bytes"].get<double>() / kBytesPerMb;
 }
 
-/// Recorded time over the time that tracking and keyframe building took for it.
+/// Recorded time over the work of the busier of the two stages, which run side by side.
 std::optional<double> realtime_factor(const RunFolder& run, double duration_s) {
-  double work_ms = 0.0;
+  double busiest_ms = 0.0;
   for (const char* column : {"track_ms", "keyframe_ms"}) {
+    double work_ms = 0.0;
     for (const double value : run.groups.numbers(column)) work_ms += std::isfinite(value) ? value : 0.0;
+    busiest_ms = std::max(busiest_ms, work_ms);
   }
-  if (work_ms <= 0.0 || duration_s <= 0.0) return std::nullopt;
-  return duration_s / (work_ms / 1e3);
+  if (busiest_ms <= 0.0 || duration_s <= 0.0) return std::nullopt;
+  return duration_s / (busiest_ms / 1e3);
 }
 
 /// LiDAR datagrams that never arrived, by the gaps in the device's counters.
@@ -81,7 +82,7 @@ std::optional<double> percentile(std::vector<double> values, double fraction) {
 }
 
 Summary summarise(const RunFolder& run, const std::vector<Reference>& references,
-                  const std::vector<double>& psnrs_db) {
+                  const std::vector<RenderQuality>& qualities) {
   Summary s;
   s.poses = run.trajectory.size();
   if (s.poses > 1) s.duration_s = to_seconds(run.trajectory.back().stamp - run.trajectory.front().stamp);
@@ -103,9 +104,14 @@ Summary summarise(const RunFolder& run, const std::vector<Reference>& references
   s.bytes_down = find_metric(run.robot_metrics, {"link.bytes_down"});
   s.robot_peak_rss_mb = peak_rss_mb(run.robot_metrics);
   s.server_peak_rss_mb = peak_rss_mb(run.server_metrics);
-  if (!psnrs_db.empty()) {
-    s.render_psnr_db =
-        std::accumulate(psnrs_db.begin(), psnrs_db.end(), 0.0) / static_cast<double>(psnrs_db.size());
+  if (!qualities.empty()) {
+    RenderQuality sum;
+    for (const RenderQuality& quality : qualities) {
+      sum.psnr_db += quality.psnr_db;
+      sum.coverage += quality.coverage;
+    }
+    s.render_psnr_db = sum.psnr_db / static_cast<double>(qualities.size());
+    s.render_coverage = sum.coverage / static_cast<double>(qualities.size());
   }
   return s;
 }
@@ -128,6 +134,7 @@ nlohmann::json to_json(const Summary& s, const std::vector<Reference>& reference
                          {"robot_peak_rss_mb", or_null(s.robot_peak_rss_mb)},
                          {"server_peak_rss_mb", or_null(s.server_peak_rss_mb)},
                          {"render_psnr_db", or_null(s.render_psnr_db)},
+                         {"render_coverage", or_null(s.render_coverage)},
                          {"references", nlohmann::json::array()}};
   for (const Reference& reference : references) {
     const accuracy::Evaluation& e = reference.evaluation;
@@ -151,6 +158,8 @@ std::vector<SummaryRow> summary_rows(const Summary& s) {
   if (s.track_ms_p95) track += fmt::format(", {:.1f} ms p95", *s.track_ms_p95);
   std::string end_to_end = text_or_dash(s.ete_m, "m", 3);
   if (s.ete_percent) end_to_end += fmt::format(" ({:.2f} % of the path)", *s.ete_percent);
+  std::string quality = text_or_dash(s.render_psnr_db, "dB", 1);
+  if (s.render_coverage) quality += fmt::format(" over {:.0f} % of the picture", 100.0 * *s.render_coverage);
   return {
       {"Run", fmt::format("{:.1f} s, {} poses, {}", s.duration_s, s.poses, text_or_dash(s.path_m, "m", 1))},
       {"Trajectory error (ATE rmse)", text_or_dash(s.ate_rmse_m, "m", 3)},
@@ -160,7 +169,7 @@ std::vector<SummaryRow> summary_rows(const Summary& s) {
       {"Packets lost", text_or_dash(s.packets_lost, "", 0)},
       {"Keyframes", text_or_dash(s.keyframes, "", 0)},
       {"Gaussians on the robot", text_or_dash(s.gaussians, "", 0)},
-      {"Picture quality (PSNR)", text_or_dash(s.render_psnr_db, "dB", 1)},
+      {"Picture quality (PSNR)", quality},
       {"Sent up / down",
        text_or_dash(megabytes(s.bytes_up), "MB", 1) + " / " + text_or_dash(megabytes(s.bytes_down), "MB", 1)},
       {"Peak memory robot / server",

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tools/report/picture_embed.hpp"
 #include "tools/report/references.hpp"
 #include "tools/report/run_folder.hpp"
 
@@ -24,7 +25,7 @@ struct Summary {
   std::optional<double> path_m;  ///< of the reference, else of the estimate
   std::optional<double> track_ms_p50;
   std::optional<double> track_ms_p95;
-  std::optional<double> realtime_factor;  ///< recorded seconds per second of tracking work
+  std::optional<double> realtime_factor;  ///< recorded seconds per second of work of the busier stage
   std::optional<double> packets_lost;
   std::optional<double> gaussians;
   std::optional<double> keyframes;
@@ -32,12 +33,14 @@ struct Summary {
   std::optional<double> bytes_down;
   std::optional<double> robot_peak_rss_mb;
   std::optional<double> server_peak_rss_mb;
-  std::optional<double> render_psnr_db;  ///< Gaussians against the camera, mean over the sampled keyframes
+  std::optional<double> render_psnr_db;  ///< Gaussians against the camera where they cover the picture, mean
+  std::optional<double>
+      render_coverage;  ///< share of the picture they cover, mean over the sampled keyframes
 };
 
-/// `psnrs_db`: of the sampled renders, may be empty.
+/// `qualities`: of the sampled renders, may be empty.
 [[nodiscard]] Summary summarise(const RunFolder& run, const std::vector<Reference>& references,
-                                const std::vector<double>& psnrs_db);
+                                const std::vector<RenderQuality>& qualities);
 
 /// Keys as above, null for what does not apply, and "references": one object for each.
 [[nodiscard]] nlohmann::json to_json(const Summary& summary, const std::vector<Reference>& references);

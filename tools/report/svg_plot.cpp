@@ -14,7 +14,7 @@ namespace edgesplat::report {
 namespace {
 
 constexpr std::size_t kMaxPoints = 1500;
-constexpr double kCharacterWidth = 6.4;  // of the page's 12 px font, on average
+constexpr double kCharacterWidth = 6.9;  // of the page's 12 px font, on average
 constexpr double kLegendLine = 17.0;
 constexpr double kBelowFrame = 40.0;  // for the numbers and the name of the x axis
 constexpr double kLowestFrame = 130.0;
@@ -51,7 +51,7 @@ double draw_legend(const Plot& plot, std::string& svg) {
   double x = 58.0;
   double y = 34.0;
   for (const Series& series : plot.series) {
-    const double width = 26.0 + kCharacterWidth * static_cast<double>(series.name.size());
+    const double width = 34.0 + kCharacterWidth * static_cast<double>(series.name.size());
     if (x > 58.0 && x + width > plot.width) {
       x = 58.0;
       y += kLegendLine;

@@ -64,14 +64,22 @@ TEST(Percentile, IsTheNearestRank) {
   EXPECT_EQ(percentile(hundred, 1.0), 100.0);
 }
 
-TEST(Psnr, OfKnownPictures) {
-  const sensor::ImageRgb8 black(8, 4, 0);
-  const sensor::ImageRgb8 white(8, 4, 255);
-  EXPECT_EQ(psnr_db(black, black), 99.0);
-  EXPECT_NEAR(*psnr_db(black, white), 0.0, 1e-12);
-  EXPECT_NEAR(*psnr_db(black, sensor::ImageRgb8(8, 4, 51)), 20.0 * std::log10(5.0), 1e-9);
-  EXPECT_FALSE(psnr_db(black, sensor::ImageRgb8(4, 8, 0)));
-  EXPECT_FALSE(psnr_db({}, {}));
+TEST(CompareRender, OfKnownPictures) {
+  const sensor::ImageRgb8 camera(8, 4, 100);
+  EXPECT_EQ(compare_render(camera, camera)->psnr_db, 99.0);
+  EXPECT_EQ(compare_render(camera, camera)->coverage, 1.0);
+  EXPECT_NEAR(compare_render(camera, sensor::ImageRgb8(8, 4, 151))->psnr_db, 20.0 * std::log10(5.0), 1e-9);
+  EXPECT_FALSE(compare_render(camera, sensor::ImageRgb8(4, 8, 100)));
+  EXPECT_FALSE(compare_render({}, {}));
+}
+
+TEST(CompareRender, LeavesOutWhatIsNotMapped) {
+  const sensor::ImageRgb8 camera(8, 4, 100);
+  sensor::ImageRgb8 render(8, 4, 0);
+  EXPECT_FALSE(compare_render(camera, render));
+  for (int x = 0; x < 8; ++x) std::fill_n(render.pixel(x, 0), 3, std::uint8_t{151});
+  EXPECT_NEAR(compare_render(camera, render)->psnr_db, 20.0 * std::log10(5.0), 1e-9);
+  EXPECT_NEAR(compare_render(camera, render)->coverage, 0.25, 1e-12);
 }
 
 io::PointCloud two_points() {

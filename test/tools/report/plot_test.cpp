@@ -42,6 +42,9 @@ TEST(TicksOf, AreRoundAndInside) {
   labels.clear();
   for (const Tick& tick : ticks_of({0.0, 1700.0}, 4)) labels.push_back(tick.label);
   EXPECT_THAT(labels, testing::ElementsAre("0", "500", "1000", "1500"));
+  labels.clear();
+  for (const Tick& tick : ticks_of({0.0, 26000.0}, 3)) labels.push_back(tick.label);
+  EXPECT_THAT(labels, testing::ElementsAre("0", "10k", "20k"));
   EXPECT_TRUE(ticks_of({1.0, 1.0}, 5).empty());
 }
 
