@@ -50,8 +50,8 @@ std::vector<Tick> ticks_of(const AxisRange& range, int wanted) {
   const double last = std::floor(range.high / step + 1e-9);
   for (double n = first; n <= last; n += 1.0) {
     const double value = n == 0.0 ? 0.0 : n * step;  // no "-0"
-    ticks.push_back(
-        {value, in_thousands ? fmt::format("{:g}k", value / 1e3) : fmt::format("{:.{}f}", value, decimals)});
+    ticks.push_back({value, in_thousands && value != 0.0 ? fmt::format("{:g}k", value / 1e3)
+                                                         : fmt::format("{:.{}f}", value, decimals)});
   }
   return ticks;
 }
