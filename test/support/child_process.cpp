@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "test/support/child_process.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/syscall.h>
@@ -9,13 +10,27 @@
 #include <unistd.h>
 
 namespace edgesplat::test {
+namespace {
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
+void redirect(int target_fd, const std::string& file) {
+  if (file.empty()) return;
+  const int fd = ::open(file.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0600);
+  if (fd < 0 || ::dup2(fd, target_fd) < 0) ::_exit(127);
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const ChildOutput& output) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   pid_ = ::fork();
   if (pid_ == 0) {
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
+    redirect(STDOUT_FILENO, output.out_file);
+    redirect(STDERR_FILENO, output.err_file);
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }

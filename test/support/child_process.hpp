@@ -13,11 +13,18 @@
 
 namespace edgesplat::test {
 
+/// Files that take a program's words; empty: they go where the test's own go.
+struct ChildOutput {
+  std::string out_file;
+  std::string err_file;
+};
+
 /// A program started by a test; killed, if it still runs, at the end of the scope. Single-owner.
 class ChildProcess {
  public:
-  /// `arguments[0]` is the program's path. A program that cannot be started ends with code 127.
-  explicit ChildProcess(const std::vector<std::string>& arguments);
+  /// `arguments[0]` is the program's path. A program that cannot be started ends with code 127. It starts
+  /// with no signal blocked, whatever the test has blocked.
+  explicit ChildProcess(const std::vector<std::string>& arguments, const ChildOutput& output = {});
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
