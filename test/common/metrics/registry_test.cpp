@@ -42,6 +42,7 @@ TEST(Registry, WritesJson) {
 TEST(Registry, CanBeUsedFromSeveralThreads) {
   Registry registry;
   std::vector<std::thread> threads;
+  threads.reserve(3);
   for (int t = 0; t < 3; ++t)
     threads.emplace_back([&registry] {
       for (int i = 0; i < 500; ++i) {

@@ -119,12 +119,14 @@ TEST(BoundedQueue, ManyProducersAndConsumersLoseNothingWhenTheyWait) {
   constexpr int kEach = 2000;
   BoundedQueue<int> queue({.items = 4, .bytes = 10}, Overflow::kBlock);
   std::vector<std::thread> producers;
+  producers.reserve(3);
   for (int p = 0; p < 3; ++p)
     producers.emplace_back([&queue, p] {
       for (int i = 0; i < kEach; ++i) queue.push(p * kEach + i, static_cast<std::size_t>(1 + i % 7));
     });
   std::vector<std::vector<int>> got(2);
   std::vector<std::thread> consumers;
+  consumers.reserve(got.size());
   for (auto& items : got)
     consumers.emplace_back([&queue, &items] {
       while (auto item = queue.pop()) items.push_back(*item);
