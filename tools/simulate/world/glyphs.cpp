@@ -50,8 +50,9 @@ bool inked(std::string_view text, int column, int row) {
   if (letter >= text.size() || within > 4) return false;
   const char c = text[letter];
   const auto bit = static_cast<unsigned>(6 - row);
-  if (c >= 'A' && c <= 'Z') return (kLetters[static_cast<std::size_t>(c - 'A')][within] >> bit & 1U) != 0;
-  if (c >= '0' && c <= '9') return (kDigits[static_cast<std::size_t>(c - '0')][within] >> bit & 1U) != 0;
+  const auto has_ink = [&](const Columns& columns) { return (unsigned{columns[within]} >> bit & 1U) != 0U; };
+  if (c >= 'A' && c <= 'Z') return has_ink(kLetters[static_cast<std::size_t>(c - 'A')]);
+  if (c >= '0' && c <= '9') return has_ink(kDigits[static_cast<std::size_t>(c - '0')]);
   return false;
 }
 
