@@ -36,6 +36,7 @@ struct LiveInput::Devices {
   frame_socket::FrameSource camera_source;
   livox::LivoxSource lidar_source;
   Sink sink;
+  replay::Recorder* recorder;
 
   void receive_lidar(const std::stop_token& stop);
   void receive_camera(const std::stop_token& stop);
@@ -49,6 +50,7 @@ void LiveInput::Devices::receive_lidar(const std::stop_token& stop) {
       return;
     }
     for (const livox::Datagram& datagram : *batch) {
+      if (recorder != nullptr) recorder->on_datagram(datagram);
       auto measurement = datagram.channel == livox::Channel::kPoints
                              ? lidar_source.on_points(datagram.bytes, datagram.arrival)
                              : lidar_source.on_imu(datagram.bytes, datagram.arrival);
@@ -70,6 +72,7 @@ void LiveInput::Devices::receive_camera(const std::stop_token& stop) {
       }
     }
     if (!received) continue;
+    if (recorder != nullptr) recorder->on_frame(received->frame, received->arrival);
     auto measurement = camera_source.on_frame(received->frame, received->arrival);
     if (measurement) sink(std::move(*measurement));
   }
@@ -79,7 +82,8 @@ LiveInput::LiveInput(std::unique_ptr<Devices> devices) : devices_(std::move(devi
 LiveInput::~LiveInput() = default;
 
 Result<std::unique_ptr<LiveInput>> LiveInput::open(const robot_config::RobotConfig& config,
-                                                   const sensor::Rig& rig, const Clock& clock, Sink sink) {
+                                                   const sensor::Rig& rig, const Clock& clock, Sink sink,
+                                                   replay::Recorder* recorder) {
   livox::LivoxTransportConfig lidar;
   lidar.bind_address = config.livox.bind_address;
   lidar.points_port = config.livox.points_port;
@@ -99,7 +103,7 @@ Result<std::unique_ptr<LiveInput>> LiveInput::open(const robot_config::RobotConf
                      transport.imu_port(), "receive_buffer_bytes", transport.receive_buffer_bytes());
   auto devices = std::make_unique<Devices>(Devices{std::move(transport), std::move(client),
                                                    frame_socket::FrameSource(size), livox::LivoxSource(),
-                                                   std::move(sink)});
+                                                   std::move(sink), recorder});
   return std::unique_ptr<LiveInput>(new LiveInput(std::move(devices)));
 }
 

@@ -7,6 +7,7 @@
 #include "common/sensor/rig.hpp"
 #include "common/time/clock.hpp"
 #include "robot/config/robot_config.hpp"
+#include "robot/drivers/replay/recorder.hpp"
 
 #include <functional>
 #include <memory>
@@ -23,7 +24,8 @@ class LiveInput {
   /// Opens the sockets. Errors: kIo where a port is taken (names its holder), kInvalidConfig for a bad
   /// address.
   static Result<std::unique_ptr<LiveInput>> open(const robot_config::RobotConfig& config,
-                                                 const sensor::Rig& rig, const Clock& clock, Sink sink);
+                                                 const sensor::Rig& rig, const Clock& clock, Sink sink,
+                                                 replay::Recorder* recorder = nullptr);
   ~LiveInput();
   LiveInput(const LiveInput&) = delete;
   LiveInput& operator=(const LiveInput&) = delete;

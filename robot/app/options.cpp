@@ -29,7 +29,7 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.add_option("--seconds", o.seconds, "Stop after this much recorded time; 0: all")
       ->check(CLI::Range(0.0, 1e7));
   app.add_option("--threads", o.threads, "Threads of the tracking loops")->check(CLI::Range(1, 64));
-  app.add_option("--record", o.record, "Write everything that arrives into this .mcap");
+  app.add_option("--record", o.record, "With --live: write every byte that arrives into this .mcap");
   app.add_option("--out", o.out, "Run folder for trajectory, metrics, map and pictures");
   std::string server;
   app.add_option("--server", server, "Share the map with a server")->check(CLI::IsMember({"on", "off"}));
@@ -47,6 +47,7 @@ ParsedOptions parse_options(int argc, char** argv) {
     if (!live && o.replay.empty() && !o.check_config && !o.print_config) {
       throw CLI::ValidationError("nothing to do", "name a source: --live or --replay PATH");
     }
+    if (!o.record.empty() && !live) throw CLI::ValidationError("--record", "needs --live");
     if (o.lockstep && o.replay.empty()) throw CLI::ValidationError("--lockstep", "needs --replay PATH");
   } catch (const CLI::ParseError& error) {
     parsed.exit_now = app.exit(error) == 0 ? 0 : 2;

@@ -9,6 +9,7 @@
 #include "robot/app/map_share.hpp"
 #include "robot/app/pipeline.hpp"
 #include "robot/app/progress.hpp"
+#include "robot/app/recording.hpp"
 #include "robot/app/render_loop.hpp"
 #include "robot/app/replay_input.hpp"
 #include "robot/app/run_folder.hpp"
@@ -51,6 +52,21 @@ Result<sensor::Rig> load_rig(const Options& o, const std::optional<replay::Repla
               "a live run needs --rig FILE: which sensors there are and where they sit");
 }
 
+/// Live sensors into a sink, recorded on the way where asked for.
+Status run_sensors(const Options& o, const robot_config::RobotConfig& config, const sensor::Rig& rig,
+                   const Clock& clock, const LiveInput::Sink& sink, metrics::Registry& metrics,
+                   const std::stop_token& stop) {
+  std::unique_ptr<Recording> recording;
+  if (!o.record.empty()) {
+    EDGESPLAT_TRY(recording, Recording::start(o.record, config::to_toml(rig), config::to_toml(config)));
+  }
+  EDGESPLAT_TRY(const auto input,
+                LiveInput::open(config, rig, clock, sink, recording ? recording->recorder() : nullptr));
+  input->run(stop);
+  input->publish_counters(metrics);
+  return recording ? recording->finish(metrics) : Status();
+}
+
 /// The threaded run: live sensors or a paced recording.
 Status run_threads(const Options& o, const robot_config::RobotConfig& config, const sensor::Rig& rig,
                    std::optional<replay::ReplaySource>& recording, SensingChain& chain, MapShare* share,
@@ -73,9 +89,7 @@ Status run_threads(const Options& o, const robot_config::RobotConfig& config, co
   const auto push = [&](sensor::Measurement measurement) { pipeline.push(std::move(measurement)); };
   Status result;
   if (live) {
-    EDGESPLAT_TRY(auto input, LiveInput::open(config, rig, clock, push));
-    input->run(stop);
-    input->publish_counters(metrics);
+    result = run_sensors(o, config, rig, clock, push, metrics, stop);
   } else {
     ReplayInput input(*recording, o.speed, o.seconds, clock);
     result = input.run(push, stop);

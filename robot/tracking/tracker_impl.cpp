@@ -229,7 +229,11 @@ TrackedGroup Tracker::Impl::start(const sync::MeasureGroup& group) {
   first.updated = true;  // this pose defines odom
   extend_map(first);
   scans_to_redraw = kRedrawnScans;
-  return report(group, first);
+  TrackedGroup tracked = report(group, first);
+  // Without an IMU the speed is unknown until the second group: a sweep cannot be deskewed yet, and where the
+  // body was at its end is not known either. The map is begun, but no pose is claimed.
+  if (!with_imu && sweep.has_point_times()) tracked.health.state = TrackingState::kInitialising;
+  return tracked;
 }
 
 Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {

@@ -54,6 +54,10 @@ Result<std::vector<io::StampedPose>> read_reference(const ReferenceSource& sourc
                                               " poses of " + source.path.string());
     }
   } else {
+    // Stamps inside the reference's own span count from its pose 0 (a folder replayed from time 0 whose first
+    // pose may be missing); others share only the start.
+    const nanoseconds span = from_seconds(static_cast<double>(poses.size()) / source.rate_hz);
+    if (start.time_since_epoch() >= nanoseconds(0) && start.time_since_epoch() < span) start = HostTime{};
     for (std::size_t i = 0; i < poses.size(); ++i) {
       stamps.push_back(start + from_seconds(static_cast<double>(i) / source.rate_hz));
     }

@@ -46,7 +46,8 @@ void add_evaluate_verb(CLI::App& app, VerbContext& context) {
           {"tum", accuracy::ReferenceFormat::kTum}, {"kitti", accuracy::ReferenceFormat::kKitti}}));
   verb->add_option("--times", options->reference.times, "KITTI reference: times.txt with its stamps");
   verb->add_option("--rate", options->reference.rate_hz,
-                   "KITTI reference without --times: poses a second, the first at the estimate's first stamp")
+                   "KITTI reference without --times: poses a second, from time 0, or from the estimate's "
+                   "first stamp where that lies outside")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb->add_option("--max-diff", options->max_diff_s, "Largest difference of paired stamps, seconds")

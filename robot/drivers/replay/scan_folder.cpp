@@ -9,6 +9,8 @@
 #include "robot/drivers/replay/scan_file.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -24,10 +26,13 @@ constexpr std::uintmax_t kMaxImageBytes = std::uintmax_t{64} << 20U;
 
 /// One file to be replayed at its time.
 struct Entry {
-  nanoseconds time;
+  nanoseconds time;  ///< of its arrival
   bool is_scan;
   fs::path path;
 };
+
+/// KITTI raw spins at 10 Hz and takes each picture when the scanner looks forward, in the middle of the turn.
+constexpr nanoseconds kHalfTurn = std::chrono::milliseconds(50);
 
 class ScanFolder final : public ReplaySource::Reader {
  public:
@@ -42,6 +47,8 @@ class ScanFolder final : public ReplaySource::Reader {
 
  private:
   [[nodiscard]] Result<sensor::Measurement> read_scan(const Entry& entry);
+  [[nodiscard]] sensor::LidarPacket as_turn(std::vector<sensor::LidarPoint> points,
+                                            nanoseconds arrival) const;
   [[nodiscard]] Result<sensor::Measurement> read_frame(const Entry& entry);
 
   sensor::Rig rig_;
@@ -71,9 +78,30 @@ Result<sensor::Measurement> ScanFolder::read_scan(const Entry& entry) {
   EDGESPLAT_TRY(const auto bytes, io::read_file(entry.path, kMaxScanFileBytes));
   sensor::LidarScan scan;
   EDGESPLAT_TRY(scan.points, parse_scan(bytes, entry.path.string(), report_.points_dropped));
+  if (rig_.camera) return as_turn(std::move(scan.points), entry.time);
   scan.stamp = SensorTime(entry.time);
   scan.arrival = HostTime(entry.time);
   return scan;
+}
+
+/// A scan of the raw layout as one long packet: its rays carry no times, but the turn gives them (the scanner
+/// turns clockwise seen from above, from rear to rear), so that groups can be cut where the pictures were
+/// taken.
+sensor::LidarPacket ScanFolder::as_turn(std::vector<sensor::LidarPoint> points, nanoseconds arrival) const {
+  sensor::LidarPacket packet;
+  packet.stamp = SensorTime(arrival - 2 * kHalfTurn);
+  packet.arrival = HostTime(arrival);
+  packet.stamp_source = sensor::StampSource::kPtp;
+  packet.span = 2 * kHalfTurn;
+  for (sensor::LidarPoint& point : points) {
+    const double azimuth_rad = std::atan2(point.p_in_lidar_m.y(), point.p_in_lidar_m.x());
+    const double turned = 0.5 * (1.0 - azimuth_rad / std::numbers::pi);
+    point.offset_ns = static_cast<std::int32_t>(turned * static_cast<double>(packet.span.count()));
+  }
+  std::stable_sort(points.begin(), points.end(),
+                   [](const auto& a, const auto& b) { return a.offset_ns < b.offset_ns; });
+  packet.points = std::move(points);
+  return packet;
 }
 
 Result<sensor::Measurement> ScanFolder::read_frame(const Entry& entry) {
@@ -208,6 +236,9 @@ Result<std::unique_ptr<ReplaySource::Reader>> open_scan_folder(const fs::path& f
         report.why = path.string() + " has no time: no line in times.txt, or no scan of its number";
       }
     }
+  }
+  if (rig.camera) {
+    for (Entry& entry : entries) entry.time += entry.is_scan ? kHalfTurn : nanoseconds(0);
   }
   if (entries.empty())
     return fail(Errc::kInvalidArgument, folder.string() + ": no scan has a time in times.txt");

@@ -91,19 +91,23 @@ TEST(ScanFolder, ReplaysKittisLayoutInTimeOrder) {
   ASSERT_TRUE(source->rig().camera.has_value());
   EXPECT_EQ(source->rig().camera->model.width_px, 64);
   EXPECT_FALSE(source->rig().imu.has_value());
-  EXPECT_EQ(source->duration(), nanoseconds(300 * kMs));
+  EXPECT_EQ(source->duration(), nanoseconds(350 * kMs));  // the last turn ends 50 ms after its picture
   const auto all = read_all(*source);
   ASSERT_EQ(all.size(), 6U);
   for (std::size_t i = 0; i < 6; i += 2) {
-    const auto& scan = std::get<sensor::LidarScan>(all[i]);
-    const auto& frame = std::get<sensor::CameraFrame>(all[i + 1]);
-    EXPECT_EQ(to_ns(scan.stamp), (i == 4 ? 300 : static_cast<std::int64_t>(i) * 50) * kMs);
-    EXPECT_EQ(to_ns(scan.arrival), to_ns(scan.stamp));
-    EXPECT_EQ(frame.stamp, scan.stamp);
+    const auto& frame = std::get<sensor::CameraFrame>(all[i]);
+    const auto& turn = std::get<sensor::LidarPacket>(all[i + 1]);
+    EXPECT_EQ(to_ns(frame.stamp), (i == 4 ? 300 : static_cast<std::int64_t>(i) * 50) * kMs);
     EXPECT_EQ(frame.image->height_px, 48);
-    EXPECT_EQ(scan.points.size(), 2U);
-    EXPECT_FALSE(scan.has_point_times);
+    EXPECT_EQ(to_ns(turn.stamp), to_ns(frame.stamp) - 50 * kMs);
+    EXPECT_EQ(to_ns(turn.arrival), to_ns(frame.stamp) + 50 * kMs);
+    EXPECT_EQ(turn.span, nanoseconds(100 * kMs));
   }
+  // Clockwise from the rear: left at a quarter of the turn, ahead (when the picture is taken) at half of it.
+  const auto& first = std::get<sensor::LidarPacket>(all[1]);
+  ASSERT_EQ(first.points.size(), 2U);
+  EXPECT_NEAR(first.points[0].offset_ns, 37.5 * kMs, 1000);  // (1, 1): 45 degrees to the left
+  EXPECT_NEAR(first.points[1].offset_ns, 50 * kMs, 1000);    // (5, 0): ahead
   EXPECT_TRUE(source->report().complete);
   EXPECT_EQ(source->report().measurements, 6U);
 }

@@ -80,7 +80,7 @@ TEST(Tracker, DrivesThroughARoomWithoutImu) {
   const Errors errors = drive(drive_config(false));
   EXPECT_LT(errors.ate_m, 0.015);
   EXPECT_LT(errors.end_m, 0.05);
-  EXPECT_EQ(errors.poses, 120);
+  EXPECT_EQ(errors.poses, 119);  // the first sweep only begins the map: its speed is not known yet
 }
 
 TEST(Tracker, StartsInMotion) {
