@@ -59,6 +59,17 @@ TEST_F(RobotRun, WritesEverythingARunFolderHas) {
   EXPECT_GT(metrics["gauges"]["map.coloured_points"].get<double>(), 1000);
 }
 
+TEST_F(RobotRun, TheReplayVerbGivesTheSameTrajectory) {
+  const auto robot = run_program("edgesplat-robot", {"--replay", recording(), "--lockstep", "--server", "off",
+                                                     "--out", in_folder("robot")});
+  const auto verb =
+      run_program("edgesplat", {"replay", recording(), "--lockstep", "--out", in_folder("verb")});
+  ASSERT_EQ(robot.exit_code, 0) << robot.err;
+  ASSERT_EQ(verb.exit_code, 0) << verb.err;
+  EXPECT_EQ(text_of(in_folder("robot/robot/trajectory.tum")),
+            text_of(in_folder("verb/robot/trajectory.tum")));
+}
+
 TEST_F(RobotRun, TruncatedRecordingKeepsWhatIsReadableAndSaysHowMuch) {
   const std::string cut = in_folder("cut.mcap");
   std::filesystem::copy_file(recording(), cut, std::filesystem::copy_options::overwrite_existing);

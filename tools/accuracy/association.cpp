@@ -42,6 +42,9 @@ std::vector<PosePair> associate(std::span<const io::StampedPose> estimate,
   return pairs;
 }
 
+/// First poses later than this after time 0 are not a replayed folder's.
+constexpr nanoseconds kFolderStart = std::chrono::seconds(1);
+
 Result<std::vector<io::StampedPose>> read_reference(const ReferenceSource& source, HostTime start) {
   if (source.format == ReferenceFormat::kTum) return io::read_tum(source.path);
   EDGESPLAT_TRY(const auto poses, io::read_kitti(source.path));
@@ -54,10 +57,9 @@ Result<std::vector<io::StampedPose>> read_reference(const ReferenceSource& sourc
                                               " poses of " + source.path.string());
     }
   } else {
-    // Stamps inside the reference's own span count from its pose 0 (a folder replayed from time 0 whose first
-    // pose may be missing); others share only the start.
-    const nanoseconds span = from_seconds(static_cast<double>(poses.size()) / source.rate_hz);
-    if (start.time_since_epoch() >= nanoseconds(0) && start.time_since_epoch() < span) start = HostTime{};
+    // A folder is replayed from time 0, and its first poses may be missing; stamps of a clock share only the
+    // start.
+    if (start >= HostTime{} && start < HostTime{} + kFolderStart) start = HostTime{};
     for (std::size_t i = 0; i < poses.size(); ++i) {
       stamps.push_back(start + from_seconds(static_cast<double>(i) / source.rate_hz));
     }

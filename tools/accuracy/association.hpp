@@ -35,7 +35,7 @@ struct ReferenceSource {
 };
 
 /// Reads a reference. KITTI poses have no stamps: theirs come from `times`, else from `rate_hz`, counted from
-/// 0 where `start` (the estimate's first stamp) lies in the reference's own span, else from `start`. Errors
+/// 0 where `start` (the estimate's first stamp) lies in the first second, else from `start`. Errors
 /// of the files, and kInvalidArgument where times and poses differ in number.
 [[nodiscard]] Result<std::vector<io::StampedPose>> read_reference(const ReferenceSource& source,
                                                                   HostTime start);

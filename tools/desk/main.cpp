@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   desk::add_evaluate_verb(app, context);
   desk::add_inspect_verb(app, context);
   desk::add_odometry_verb(app, context);
+  desk::add_replay_verb(app, context);
   desk::add_report_verb(app, context);
   desk::add_simulate_verb(app, context);
   desk::add_stream_verb(app, context);

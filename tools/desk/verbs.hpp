@@ -22,6 +22,7 @@ struct VerbContext {
 void add_evaluate_verb(CLI::App& app, VerbContext& context);
 void add_inspect_verb(CLI::App& app, VerbContext& context);
 void add_odometry_verb(CLI::App& app, VerbContext& context);
+void add_replay_verb(CLI::App& app, VerbContext& context);
 void add_report_verb(CLI::App& app, VerbContext& context);
 void add_simulate_verb(CLI::App& app, VerbContext& context);
 void add_stream_verb(CLI::App& app, VerbContext& context);
