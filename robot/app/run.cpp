@@ -41,12 +41,7 @@ Result<robot_config::RobotConfig> load_config(const Options& o) {
 }
 
 Result<sensor::Rig> load_rig(const Options& o, const std::optional<replay::ReplaySource>& recording) {
-  if (!o.rig_file.empty()) {
-    EDGESPLAT_TRY(const config::ConfigFile file, config::ConfigFile::load(o.rig_file));
-    sensor::Rig rig;
-    EDGESPLAT_TRY_STATUS(file.read_into(rig));
-    return rig;
-  }
+  if (!o.rig_file.empty()) return sensor::load_rig(o.rig_file);
   if (recording) return recording->rig();
   return fail(Errc::kInvalidConfig,
               "a live run needs --rig FILE: which sensors there are and where they sit");
