@@ -12,7 +12,7 @@ void record(metrics::Registry& registry, const LinkCounters& counters) {
     const LaneCounters& of = counters[static_cast<std::size_t>(lane)];
     if (of.messages_offered == 0 && of.chunks_received == 0) continue;
     const std::string prefix = "link." + std::string(to_string(lane)) + ".";
-    const std::pair<const char*, std::uint64_t> fields[] = {
+    const std::pair<const char*, std::uint64_t> events[] = {
         {"messages_offered", of.messages_offered},
         {"messages_dropped", of.messages_dropped},
         {"messages_replaced", of.messages_replaced},
@@ -28,10 +28,10 @@ void record(metrics::Registry& registry, const LinkCounters& counters) {
         {"messages_corrupt", of.messages_corrupt},
         {"messages_lost", of.messages_lost},
         {"inbox_drops", of.inbox_drops},
-        {"queued_messages", of.queued_messages},
-        {"queued_bytes", of.queued_bytes},
     };
-    for (const auto& [name, value] : fields) registry.gauge(prefix + name).set(static_cast<double>(value));
+    for (const auto& [name, value] : events) registry.counter(prefix + name).add(value);
+    registry.gauge(prefix + "queued_messages").set(static_cast<double>(of.queued_messages));
+    registry.gauge(prefix + "queued_bytes").set(static_cast<double>(of.queued_bytes));
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace edgesplat::link {
 
-/// Sets the gauges link.<lane>.<field of LaneCounters>, e.g. link.keyframe.bytes_sent, of every lane that was
-/// used.
+/// Adds to the counters link.<lane>.<field of LaneCounters>, e.g. link.keyframe.bytes_sent, of every lane
+/// that was used, and sets the gauges link.<lane>.queued_*. To be called once, when the link is done with.
 void record(metrics::Registry& registry, const LinkCounters& counters);
 
 }  // namespace edgesplat::link

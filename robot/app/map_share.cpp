@@ -3,33 +3,12 @@
 #include "robot/app/map_share.hpp"
 
 #include "common/link/dds_transport.hpp"
+#include "common/link/link_metrics.hpp"
 #include "common/log/log.hpp"
 
-#include <string>
 #include <utility>
 
 namespace edgesplat::app {
-namespace {
-
-void publish_lane(metrics::Registry& metrics, const std::string& lane, const link::LaneCounters& c) {
-  const std::pair<const char*, std::uint64_t> counted[] = {
-      {"messages_offered", c.messages_offered},
-      {"messages_dropped", c.messages_dropped},
-      {"messages_sent", c.messages_sent},
-      {"messages_acked", c.messages_acked},
-      {"bytes_sent", c.bytes_sent},
-      {"bytes_received", c.bytes_received},
-      {"messages_received", c.messages_received},
-      {"messages_corrupt", c.messages_corrupt},
-      {"messages_lost", c.messages_lost},
-      {"inbox_drops", c.inbox_drops},
-      {"write_timeouts", c.write_timeouts},
-  };
-  for (const auto& [name, value] : counted) metrics.counter("link." + lane + "." + name).add(value);
-}
-
-}  // namespace
-
 Result<std::unique_ptr<MapShare>> MapShare::create(const robot_config::RobotConfig& config,
                                                    const Clock& clock) {
   EDGESPLAT_TRY(const std::shared_ptr<link::DdsDomain> domain, link::DdsDomain::open(config.server.link));
@@ -98,9 +77,9 @@ void MapShare::publish_counters(metrics::Registry& metrics) const {
   std::uint64_t bytes_up = 0;
   std::uint64_t bytes_down = 0;
   const link::LinkCounters lanes = transport_->counters();
+  link::record(metrics, lanes);
   for (const link::Lane lane : link::kLanes) {
     const link::LaneCounters& counters = lanes[static_cast<std::size_t>(lane)];
-    publish_lane(metrics, std::string(link::to_string(lane)), counters);
     bytes_up += counters.bytes_sent;
     bytes_down += counters.bytes_received;
   }
