@@ -42,7 +42,7 @@ class ConfigReader {
     visit_numbers(key, std::span(&value, 1), range, doc, Shape::kScalar);
   }
   void field(std::string_view key, float& value, Range<double> range, std::string_view doc) {
-    auto wide = static_cast<double>(value);
+    double wide = widened(value);
     visit_numbers(key, std::span(&wide, 1), range, doc, Shape::kScalar);
     value = static_cast<float>(wide);
   }
@@ -116,6 +116,8 @@ class ConfigReader {
   virtual void end_table() = 0;
 
  private:
+  /// The shortest decimal that reads back as this float: 0.6F is 0.6, not 0.60000002384185791.
+  static double widened(float value);
   /// TOML's integers are int64: a larger unsigned bound is cut to that.
   template <typename T>
   static std::int64_t clamped(T value) {

@@ -19,6 +19,7 @@ struct Inner {
 };
 struct Sample {
   double voxel_size_m = 0.5;
+  float blur_px = 0.6F;
   int threads = 2;
   bool enabled = true;
   std::string title = "plain";
@@ -35,6 +36,7 @@ void describe(ConfigReader& reader, Inner& inner) {
 }
 void describe(ConfigReader& reader, Sample& sample) {
   reader.field("voxel_size_m", sample.voxel_size_m, Range{0.05, 5.0}, "edge of a voxel");
+  reader.field("blur_px", sample.blur_px, Range{0.0, 9.0}, "");
   reader.field("threads", sample.threads, Range{1, 16}, "");
   reader.table("inner", "nested", [&] { describe(reader, sample.inner); });
   reader.optional_table("spare", sample.spare, "", [&](Inner& inner) { describe(reader, inner); });
@@ -168,6 +170,7 @@ TEST(ConfigFile, PrintedConfigReadsBackTheSame) {
   before.spare = Inner{2.0, 1};
   const std::string text = to_toml(before);
   EXPECT_THAT(text, HasSubstr("# edge of a voxel, [0.05, 5.0]\nvoxel_size_m = 0.1\n"));
+  EXPECT_THAT(text, HasSubstr("\nblur_px = 0.6\n"));  // a float has a float's digits
   const auto file = ConfigFile::parse(text, "printed");
   ASSERT_TRUE(file) << file.error().context << text;
   Sample after;
