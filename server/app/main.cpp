@@ -5,6 +5,7 @@
 #include "common/link/dds_transport.hpp"
 #include "common/link/link_metrics.hpp"
 #include "common/log/log.hpp"
+#include "common/thread/write_signals.hpp"
 #include "server/app/options.hpp"
 #include "server/app/server.hpp"
 #include "server/stream/epoch_file.hpp"
@@ -100,6 +101,7 @@ int main(int argc, char** argv) {
     case app::Options::Action::kRun:
       break;
   }
+  thread::make_write_signals_errors();
   const Status status = run(*options);
   if (status) return 0;
   std::fprintf(stderr, "edgesplat-server: %s\n", status.error().context.c_str());

@@ -58,11 +58,12 @@ class LiveRun : public testing::Test {
     return arguments;
   }
   /// Plays the recording at the robot and ends the robot; the robot's result.
-  ProgramResult drive(std::vector<std::string> robot_more, std::vector<std::string> stream_more) {
+  ProgramResult drive(std::vector<std::string> robot_more, std::vector<std::string> stream_more,
+                      const ChildLimits& limits = {}) {
     points_.release();
     imu_.release();
     frames_.release();
-    Program robot("edgesplat-robot", robot_arguments(std::move(robot_more)));
+    Program robot("edgesplat-robot", robot_arguments(std::move(robot_more)), limits);
     EXPECT_TRUE(robot.wait_for_stderr("listening", std::chrono::seconds(20)));
     std::vector<std::string> stream = {"stream", recording_, "--to", "127.0.0.1"};
     const auto all_ports = ports();
@@ -126,6 +127,29 @@ TEST_F(LiveRun, FullDiskIsSaidBeforeTheRunStarts) {
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_NE(run.err.find("/dev/full"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("No space left"), std::string::npos) << run.err;
+}
+
+TEST_F(LiveRun, DiskThatFillsUpCostsTheRestOfTheRecordingOnly) {
+  const std::uint64_t room = 4'000'000;  // bytes a file: about a quarter of what comes
+  const auto run = drive({"--out", in_folder("run"), "--record", in_folder("live.mcap")}, {}, {room});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_NE(run.err.find("recording failed, the run goes on"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("live.mcap"), std::string::npos) << run.err;
+
+  const std::string poses = text_of(in_folder("run/robot/trajectory.tum"));
+  EXPECT_GT(std::count(poses.begin(), poses.end(), '\n'), 50);  // to the end of the stream
+  const auto metrics = nlohmann::json::parse(text_of(in_folder("run/robot/metrics.json")));
+  EXPECT_GT(metrics["counters"]["recorder.failed"].get<int>(), 100);
+  EXPECT_LE(std::filesystem::file_size(in_folder("live.mcap")), room);
+
+  const auto replayed = run_program("edgesplat-robot", {"--replay", in_folder("live.mcap"), "--lockstep",
+                                                        "--server", "off", "--out", in_folder("again")});
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+  EXPECT_NE(replayed.err.find("recording incomplete"), std::string::npos) << replayed.err;
+  std::string again = text_of(in_folder("again/robot/trajectory.tum"));
+  EXPECT_GT(std::count(again.begin(), again.end(), '\n'), 5);
+  again.resize(again.rfind('\n', again.size() - 2) + 1);  // the last group ends where the file does
+  EXPECT_EQ(poses.substr(0, again.size()), again);
 }
 
 }  // namespace

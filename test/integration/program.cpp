@@ -22,10 +22,10 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-Program::Program(const std::string& name, std::vector<std::string> arguments) {
+Program::Program(const std::string& name, std::vector<std::string> arguments, const ChildLimits& limits) {
   arguments.insert(arguments.begin(), std::string(EDGESPLAT_BINARY_DIR) + "/bin/" + name);
-  child_ =
-      std::make_unique<ChildProcess>(arguments, ChildOutput{folder_.path() / "out", folder_.path() / "err"});
+  child_ = std::make_unique<ChildProcess>(
+      arguments, ChildOutput{folder_.path() / "out", folder_.path() / "err"}, limits);
 }
 
 ProgramResult Program::wait(std::chrono::seconds timeout) {

@@ -21,7 +21,7 @@ struct ProgramResult {
 /// A program of this build (build/<preset>/bin) as a child process whose words can be read back.
 class Program {
  public:
-  Program(const std::string& name, std::vector<std::string> arguments);
+  Program(const std::string& name, std::vector<std::string> arguments, const ChildLimits& limits = {});
 
   void signal(int number) const { child_->signal(number); }
   /// Waits for the end; after `timeout` the program is killed.

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,7 +21,8 @@ void redirect(int target_fd, const std::string& file) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const ChildOutput& output) {
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const ChildOutput& output,
+                           const ChildLimits& limits) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -31,6 +33,10 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const Chil
     ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
     redirect(STDOUT_FILENO, output.out_file);
     redirect(STDERR_FILENO, output.err_file);
+    if (limits.file_bytes) {
+      const rlimit most{*limits.file_bytes, *limits.file_bytes};
+      if (::setrlimit(RLIMIT_FSIZE, &most) != 0) ::_exit(127);
+    }
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }

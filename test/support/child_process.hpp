@@ -7,6 +7,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,12 +20,18 @@ struct ChildOutput {
   std::string err_file;
 };
 
+/// What the kernel lets the program do.
+struct ChildLimits {
+  std::optional<std::uint64_t> file_bytes;  ///< no file may grow beyond this, as on a disk that is full
+};
+
 /// A program started by a test; killed, if it still runs, at the end of the scope. Single-owner.
 class ChildProcess {
  public:
   /// `arguments[0]` is the program's path. A program that cannot be started ends with code 127. It starts
   /// with no signal blocked, whatever the test has blocked.
-  explicit ChildProcess(const std::vector<std::string>& arguments, const ChildOutput& output = {});
+  explicit ChildProcess(const std::vector<std::string>& arguments, const ChildOutput& output = {},
+                        const ChildLimits& limits = {});
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
