@@ -26,6 +26,7 @@ Qos qos_of(Lane lane) {
       dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlocking);
       dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
       break;
+    case Lane::kRequest:
     case Lane::kDelta:
     case Lane::kKeyframe:
       dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlocking);

@@ -10,6 +10,8 @@ std::string_view to_string(Lane lane) {
       return "heartbeat";
     case Lane::kAck:
       return "ack";
+    case Lane::kRequest:
+      return "request";
     case Lane::kDelta:
       return "delta";
     case Lane::kKeyframe:

@@ -16,24 +16,29 @@ enum class Role : std::uint8_t { kRobot, kServer };
 enum class Lane : std::uint8_t {
   kHeartbeat,  ///< both ways, best effort, only the newest counts
   kAck,        ///< both ways, cumulative, only the newest counts; made and read by the link itself
+  kRequest,    ///< robot to server, reliable: what the robot's copy of the map lacks (map::MapRequest)
   kDelta,      ///< server to robot, reliable, in order
   kKeyframe,   ///< robot to server, reliable
 };
-inline constexpr std::size_t kLaneCount = 4;
-inline constexpr std::array<Lane, kLaneCount> kLanes = {Lane::kHeartbeat, Lane::kAck, Lane::kDelta,
-                                                        Lane::kKeyframe};
+inline constexpr std::size_t kLaneCount = 5;
+inline constexpr std::array<Lane, kLaneCount> kLanes = {Lane::kHeartbeat, Lane::kAck, Lane::kRequest,
+                                                        Lane::kDelta, Lane::kKeyframe};
 [[nodiscard]] std::string_view to_string(Lane lane);
 
 /// True where only the newest message matters: a newer one replaces an older one that waits.
 [[nodiscard]] constexpr bool newest_only(Lane lane) {
   return lane == Lane::kHeartbeat || lane == Lane::kAck;
 }
+/// True where a lane of one direction leads from the robot to the server.
+[[nodiscard]] constexpr bool goes_up(Lane lane) {
+  return lane == Lane::kRequest || lane == Lane::kKeyframe;
+}
 /// True where this end sends on the lane / receives from it.
 [[nodiscard]] constexpr bool sends(Role role, Lane lane) {
-  return newest_only(lane) || (lane == Lane::kKeyframe) == (role == Role::kRobot);
+  return newest_only(lane) || goes_up(lane) == (role == Role::kRobot);
 }
 [[nodiscard]] constexpr bool receives(Role role, Lane lane) {
-  return newest_only(lane) || (lane == Lane::kKeyframe) == (role == Role::kServer);
+  return newest_only(lane) || goes_up(lane) == (role == Role::kServer);
 }
 
 }  // namespace edgesplat::link

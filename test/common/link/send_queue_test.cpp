@@ -13,7 +13,7 @@ namespace {
 
 using test::message_bytes;
 
-constexpr LaneMask kAll = {true, true, true, true};
+constexpr LaneMask kAll = {true, true, true, true, true};
 constexpr map::RobotId kRobot{1};
 
 const LaneCounters& of(const LinkCounters& counters, Lane lane) {
