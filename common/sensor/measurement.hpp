@@ -67,4 +67,9 @@ struct CameraFrame {
 /// What every source hands on, live or replayed.
 using Measurement = std::variant<ImuSample, LidarPacket, LidarScan, CameraFrame>;
 
+/// When it reached this machine, whatever it is.
+[[nodiscard]] inline HostTime arrival_of(const Measurement& measurement) {
+  return std::visit([](const auto& m) { return m.arrival; }, measurement);
+}
+
 }  // namespace edgesplat::sensor

@@ -5,13 +5,8 @@
 #include <condition_variable>
 #include <mutex>
 #include <utility>
-#include <variant>
 
 namespace edgesplat::app {
-
-HostTime arrival_of(const sensor::Measurement& measurement) {
-  return std::visit([](const auto& m) { return m.arrival; }, measurement);
-}
 
 bool ReplayInput::wait_until_due(HostTime arrival, HostTime started, std::stop_token& stop) const {
   const nanoseconds recorded = arrival - source_.begin();

@@ -12,9 +12,6 @@
 
 namespace edgesplat::app {
 
-/// The arrival stamp of any measurement.
-[[nodiscard]] HostTime arrival_of(const sensor::Measurement& measurement);
-
 /// Plays a recording into a sink at a pace. Single-owner; run() belongs to one thread, played_s() to any.
 class ReplayInput {
  public:

@@ -51,10 +51,6 @@ class OdometryLoop {
   OdometryRun run_;
 };
 
-HostTime arrival_of(const sensor::Measurement& measurement) {
-  return std::visit([](const auto& value) { return value.arrival; }, measurement);
-}
-
 Result<sensor::Rig> choose_rig(const OdometryJob& job, const sensor::Rig& recorded) {
   sensor::Rig rig = job.rig.value_or(recorded);
   rig.camera.reset();  // groups end with the scans, not with pictures
@@ -97,7 +93,7 @@ Result<OdometryRun> run_odometry(const OdometryJob& job, const Clock& clock) {
   while (true) {
     EDGESPLAT_TRY(auto measurement, source.next());
     if (!measurement) break;
-    for (; !waiting.empty() && waiting.front().arrival <= arrival_of(*measurement);
+    for (; !waiting.empty() && waiting.front().arrival <= sensor::arrival_of(*measurement);
          waiting = waiting.subspan(1)) {
       EDGESPLAT_TRY_STATUS(loop.take(builder.push(waiting.front())));
     }
