@@ -5,7 +5,7 @@
 #include "common/base/check.hpp"
 
 #include <cstdlib>
-#include <string>
+#include <fstream>
 
 namespace edgesplat::test {
 
@@ -18,6 +18,18 @@ TempDir::TempDir() {
 TempDir::~TempDir() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
+}
+
+std::filesystem::path TempDir::write(const std::string& name, std::span<const std::byte> content) const {
+  const std::filesystem::path file = path_ / name;
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
+  return file;
+}
+
+std::filesystem::path TempDir::write(const std::string& name, std::string_view text) const {
+  return write(name, std::as_bytes(std::span(text.data(), text.size())));
 }
 
 }  // namespace edgesplat::test

@@ -3,7 +3,7 @@
 #include "common/io/atomic_file.hpp"
 
 #include "test/common/io/file_size_limit.hpp"
-#include "test/common/io/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ std::size_t count_entries(const std::filesystem::path& folder) {
 }
 
 TEST(AtomicFile, WritesAndReadsBack) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   ASSERT_TRUE(write_file_atomically(folder / "a.txt", "first"));
   ASSERT_TRUE(write_file_atomically(folder / "a.txt", "second"));
   EXPECT_EQ(read_text_file(folder / "a.txt", 100).value(), "second");
@@ -29,13 +29,13 @@ TEST(AtomicFile, WritesAndReadsBack) {
 }
 
 TEST(AtomicFile, EmptyFileIsAFile) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   ASSERT_TRUE(write_file_atomically(folder / "empty", ""));
   EXPECT_TRUE(read_file(folder / "empty", 0).value().empty());
 }
 
 TEST(AtomicFile, WithoutCommitTheOldFileStays) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   ASSERT_TRUE(write_file_atomically(folder / "a.txt", "old"));
   {
     auto file = AtomicFile::create(folder / "a.txt");
@@ -47,7 +47,7 @@ TEST(AtomicFile, WithoutCommitTheOldFileStays) {
 }
 
 TEST(AtomicFile, FullDiskNamesPathAndReasonAndLeavesNothing) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const std::string text(10'000, 'x');
   Status status;
   {
@@ -62,7 +62,7 @@ TEST(AtomicFile, FullDiskNamesPathAndReasonAndLeavesNothing) {
 }
 
 TEST(AtomicFile, MissingFolderIsAnError) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const auto status = write_file_atomically(folder / "no/such/file", "x");
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, Errc::kIo);
@@ -70,7 +70,7 @@ TEST(AtomicFile, MissingFolderIsAnError) {
 }
 
 TEST(ReadFile, RefusesWhatIsMissingTooLargeOrAFolder) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   EXPECT_EQ(read_file(folder / "none", 10).error().code, Errc::kNotFound);
   EXPECT_EQ(read_file(folder.path(), 10).error().code, Errc::kIo);
   ASSERT_TRUE(write_file_atomically(folder / "eleven", "12345678901"));

@@ -4,7 +4,7 @@
 #include "common/io/ply_gaussians.hpp"
 #include "common/io/ply_points.hpp"
 #include "test/common/io/peer.hpp"
-#include "test/common/io/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 
 TEST(PlyPeer, ItReadsOurPoints) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   PointCloud cloud;
   cloud.points_m = {{1.0F, 2.0F, 3.5F}, {-1.0F, 0.0F, 0.25F}};
   cloud.rgb = {{1, 2, 3}, {255, 0, 128}};
@@ -26,7 +26,7 @@ TEST(PlyPeer, ItReadsOurPoints) {
 }
 
 TEST(PlyPeer, ItReadsOurGaussians) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   gaussian::GaussianCloud cloud;
   cloud.sh_degree = 1;
   cloud.resize(1);
@@ -46,7 +46,7 @@ TEST(PlyPeer, ItReadsOurGaussians) {
 }
 
 TEST(PlyPeer, WeReadItsPoints) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   for (const char* form : {"ascii", "binary"}) {
     EDGESPLAT_PEER(lines, "ply_write", folder / "p.ply", form);
     const auto cloud = read_points_ply(folder / "p.ply");
@@ -58,7 +58,7 @@ TEST(PlyPeer, WeReadItsPoints) {
 }
 
 TEST(ImagePeer, ItReadsOurPictures) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   sensor::ImageGray16 depth(2, 1);
   depth.values = {1000, 65535};
   sensor::ImageRgb8 colour(1, 2);
@@ -75,7 +75,7 @@ TEST(ImagePeer, ItReadsOurPictures) {
 }
 
 TEST(ImagePeer, WeReadItsPictures) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   EDGESPLAT_PEER(grey, "image_write", folder / "l.png", "L");
   const auto luminance = load_image(folder / "l.png");
   ASSERT_TRUE(luminance);

@@ -3,7 +3,7 @@
 #include "common/io/image_file.hpp"
 
 #include "common/io/atomic_file.hpp"
-#include "test/common/io/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -104,7 +104,7 @@ TEST(ImageFile, HeaderWithoutDecoding) {
 }
 
 TEST(ImageFile, SavesAndLoadsByExtension) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const auto image = make_gradient(32, 16);
   for (const char* name : {"a.png", "b.JPG", "c.jpeg"}) {
     ASSERT_TRUE(save_image(folder / name, image));

@@ -3,7 +3,7 @@
 #include "common/base/bytes.hpp"
 #include "common/io/mcap_records.hpp"
 #include "test/common/io/mcap_samples.hpp"
-#include "test/common/io/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gmock/gmock.h>
 
@@ -20,7 +20,7 @@ void read_everything(McapReader& reader) {
   (void)reader.metadata();
 }
 
-std::vector<std::byte> make_rich_sample(const TemporaryFolder& folder) {
+std::vector<std::byte> make_rich_sample(const test::TempDir& folder) {
   auto writer = start_sample(folder / "a.mcap", 40, {.chunk_bytes = 700});
   EXPECT_TRUE(writer.add_attachment("rig.toml", "application/toml", bytes_of("name = 'x'")));
   EXPECT_TRUE(writer.add_metadata("run", {{"robot", "r1"}}));
@@ -36,7 +36,7 @@ TEST(McapHostile, NotMcapIsAnError) {
 }
 
 TEST(McapHostile, AnySingleDamagedByteIsSurvived) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const auto whole = make_rich_sample(folder);
   for (std::size_t i = 8; i < whole.size(); ++i) {
     for (const auto flip : {std::byte{0x01}, std::byte{0x80}, std::byte{0xFF}}) {
@@ -51,7 +51,7 @@ TEST(McapHostile, AnySingleDamagedByteIsSurvived) {
 }
 
 TEST(McapHostile, RandomDamageIsSurvived) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const auto whole = make_rich_sample(folder);
   std::mt19937 random(11);
   std::uniform_int_distribution<std::size_t> place(8, whole.size() - 1);

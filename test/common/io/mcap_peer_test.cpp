@@ -4,7 +4,7 @@
 #include "common/io/ros_messages.hpp"
 #include "test/common/io/mcap_samples.hpp"
 #include "test/common/io/peer.hpp"
-#include "test/common/io/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 
 class McapPeer : public ::testing::TestWithParam<std::pair<McapCompression, const char*>> {
  protected:
-  TemporaryFolder folder_;
+  test::TempDir folder_;
 };
 INSTANTIATE_TEST_SUITE_P(AllCompressions, McapPeer,
                          ::testing::Values(std::pair{McapCompression::kNone, "NONE"},
@@ -63,7 +63,7 @@ TEST_P(McapPeer, WeRecoverItsTruncatedFile) {
 }
 
 TEST(McapPeerAbout, ItSeesSummaryAttachmentsAndMetadata) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto writer = start_sample(folder / "ours.mcap", 300, {.chunk_bytes = 2000});
   ASSERT_TRUE(
       writer.add_attachment("rig.toml", "application/toml", bytes_of("name = 'x'"), host_time_from_ns(7)));
@@ -75,7 +75,7 @@ TEST(McapPeerAbout, ItSeesSummaryAttachmentsAndMetadata) {
 }
 
 TEST(McapPeerAbout, ItReadsTheRecoveredPartOfAKilledRecording) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const auto writer = start_sample(folder / "ours.mcap", 300, {});  // not closed
   auto reader = McapReader::open(folder / "ours.mcap");
   ASSERT_TRUE(reader);
@@ -101,7 +101,7 @@ void add_message(McapWriter& writer, std::string_view topic, const RosSchema& sc
 }
 
 TEST(McapPeerRos, ItDecodesOurMessagesByTheirSchemas) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto writer = McapWriter::create(folder / "ours.mcap");
   ASSERT_TRUE(writer);
   const auto stamp = sensor_time_from_ns(3'000'000'007);

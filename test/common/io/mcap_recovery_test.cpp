@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "test/common/io/file_size_limit.hpp"
 #include "test/common/io/mcap_samples.hpp"
-#include "test/common/io/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ void expect_prefix(const std::vector<int>& sequence) {
 }
 
 TEST(McapRecovery, KilledWriterLosesAtMostTheLastSecond) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const auto writer =
       start_sample(folder / "a.mcap", 1000, {});  // 10 s in one chunk's worth of bytes, not closed
   auto reader = McapReader::open(folder / "a.mcap");
@@ -34,7 +34,7 @@ TEST(McapRecovery, KilledWriterLosesAtMostTheLastSecond) {
 }
 
 TEST(McapRecovery, FlushBringsEverythingToTheFile) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto writer = start_sample(folder / "a.mcap", 57, {});
   ASSERT_TRUE(writer.flush());
   auto reader = McapReader::open(folder / "a.mcap");
@@ -43,7 +43,7 @@ TEST(McapRecovery, FlushBringsEverythingToTheFile) {
 }
 
 TEST(McapRecovery, AnyTruncationKeepsAPrefix) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const auto whole = make_sample(folder / "a.mcap", 60, {.chunk_bytes = 600});
   std::size_t longest = 0;
   for (std::size_t length = 8; length < whole.size(); ++length) {
@@ -60,7 +60,7 @@ TEST(McapRecovery, AnyTruncationKeepsAPrefix) {
 }
 
 TEST(McapRecovery, SaysWhereARecordingIsCut) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto whole = make_sample(folder / "a.mcap", 60, {.chunk_bytes = 600});
   whole.resize(whole.size() / 2);
   auto reader = McapReader::from_bytes(whole);
@@ -72,7 +72,7 @@ TEST(McapRecovery, SaysWhereARecordingIsCut) {
 }
 
 TEST(McapRecovery, DamagedChunkIsSkippedAndCounted) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   for (const auto compression : {McapCompression::kNone, McapCompression::kLz4, McapCompression::kZstd}) {
     auto bytes = make_sample(folder / "a.mcap", 200, {.chunk_bytes = 2000, .compression = compression});
     bytes[300] ^= std::byte{0x10};  // within the first chunk's records
@@ -92,7 +92,7 @@ TEST(McapRecovery, DamagedChunkIsSkippedAndCounted) {
 }
 
 TEST(McapRecovery, DamagedLengthIsSteppedOver) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const auto whole = make_sample(folder / "a.mcap", 200, {.chunk_bytes = 2000});
   const std::size_t first_chunk = 8 + 9 + 4 + 4 + 4 + 9;  // magic; header record with "ros2", "edgesplat"
   ASSERT_EQ(whole[first_chunk], std::byte{6});
@@ -110,7 +110,7 @@ TEST(McapRecovery, DamagedLengthIsSteppedOver) {
 }
 
 TEST(McapRecovery, DamagedSummaryIsReplacedByAScan) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto bytes = make_sample(folder / "a.mcap", 200, {.chunk_bytes = 2000});
   bytes[bytes.size() - 200] ^= std::byte{1};
   auto reader = McapReader::from_bytes(bytes);
@@ -122,7 +122,7 @@ TEST(McapRecovery, DamagedSummaryIsReplacedByAScan) {
 }
 
 TEST(McapRecovery, FullDiskIsReportedOnceAndLeavesAReadableFile) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   int failures = 0;
   {
     auto writer =
@@ -155,7 +155,7 @@ TEST(McapRecovery, FullDiskIsReportedOnceAndLeavesAReadableFile) {
 }
 
 TEST(McapRecovery, CloseAfterAFullDiskWritesTheSummaryWhereItFits) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   {
     auto writer = start_sample(folder / "a.mcap", 300, {.chunk_bytes = 2000});
     const FileSizeLimit limit(writer.bytes_written() + 1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "test/common/io/mcap_samples.hpp"
-#include "test/common/io/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 class McapRoundTrip : public ::testing::TestWithParam<McapCompression> {
  protected:
-  TemporaryFolder folder_;
+  test::TempDir folder_;
 };
 INSTANTIATE_TEST_SUITE_P(AllCompressions, McapRoundTrip,
                          ::testing::Values(McapCompression::kNone, McapCompression::kLz4,
@@ -54,7 +54,7 @@ TEST_P(McapRoundTrip, LargeMessageGetsAChunkOfItsOwn) {
 }
 
 TEST(Mcap, KeepsChannelsSchemasAndStamps) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   (void)make_sample(folder / "a.mcap", 2);
   auto reader = McapReader::open(folder / "a.mcap");
   ASSERT_TRUE(reader);
@@ -73,7 +73,7 @@ TEST(Mcap, KeepsChannelsSchemasAndStamps) {
 }
 
 TEST(Mcap, AttachmentsAndMetadata) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto writer = start_sample(folder / "a.mcap", 10, {});
   ASSERT_TRUE(writer.add_attachment("rig.toml", "application/toml", bytes_of("name = 'x'")));
   ASSERT_TRUE(writer.add_metadata("run", {{"robot", "r1"}, {"seed", "7"}}));
@@ -94,7 +94,7 @@ TEST(Mcap, AttachmentsAndMetadata) {
 }
 
 TEST(Mcap, SelectsTopicsAndTimes) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   (void)make_sample(folder / "a.mcap", 200, {.chunk_bytes = 1000});
   auto reader = McapReader::open(folder / "a.mcap");
   ASSERT_TRUE(reader);
@@ -108,7 +108,7 @@ TEST(Mcap, SelectsTopicsAndTimes) {
 }
 
 TEST(Mcap, EmptyRecordingIsComplete) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   (void)make_sample(folder / "a.mcap", 0);
   auto reader = McapReader::open(folder / "a.mcap");
   ASSERT_TRUE(reader);
@@ -118,7 +118,7 @@ TEST(Mcap, EmptyRecordingIsComplete) {
 }
 
 TEST(Mcap, SortsMessagesAcrossOverlappingChunks) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto writer = McapWriter::create(folder / "a.mcap", {.chunk_bytes = 3000});
   ASSERT_TRUE(writer);
   const auto channel = writer->add_channel("/t", McapSchemaId{}).value();
@@ -142,7 +142,7 @@ TEST(Mcap, SortsMessagesAcrossOverlappingChunks) {
 
 TEST(Mcap, MoreOverlappingChunksThanMayBeOpenComeInOrder) {
   // 30 chunks of 4 MiB that all cover the same time: more than the reader may hold open.
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto writer = McapWriter::create(folder / "a.mcap", {.chunk_bytes = 1U << 22U});
   ASSERT_TRUE(writer);
   const auto channel = writer->add_channel("/t", McapSchemaId{}).value();
@@ -166,7 +166,7 @@ TEST(Mcap, MoreOverlappingChunksThanMayBeOpenComeInOrder) {
 }
 
 TEST(McapWriter, RefusesWhatMcapCannotHold) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto writer = McapWriter::create(folder / "a.mcap");
   ASSERT_TRUE(writer);
   EXPECT_FALSE(writer->add_channel("/t", McapSchemaId{3}));

@@ -3,7 +3,7 @@
 #include "common/io/atomic_file.hpp"
 #include "common/io/ply_gaussians.hpp"
 #include "common/io/ply_points.hpp"
-#include "test/common/io/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ class GaussiansPly : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Degrees, GaussiansPly, ::testing::Values(0, 1, 2, 3));
 
 TEST_P(GaussiansPly, ReadsWhatItWrote) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{3000}}) {
     const auto cloud = make_cloud(count, GetParam());
     ASSERT_TRUE(write_gaussians_ply(folder / "g.ply", cloud));
@@ -64,7 +64,7 @@ TEST_P(GaussiansPly, ReadsWhatItWrote) {
 }
 
 TEST(GaussiansPlyLayout, IsInrias) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto cloud = make_cloud(1, 1);
   for (std::size_t i = 0; i < 12; ++i) cloud.sh[i] = static_cast<float>(i);
   ASSERT_TRUE(write_gaussians_ply(folder / "g.ply", cloud));
@@ -117,7 +117,7 @@ TEST(GaussiansPlyLayout, SaysWhatIsWrong) {
 }
 
 TEST(GaussiansPlyLayout, RefusesAnInconsistentCloud) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto cloud = make_cloud(2, 0);
   cloud.sh.pop_back();
   EXPECT_EQ(write_gaussians_ply(folder / "g.ply", cloud).error().code, Errc::kInvalidArgument);
@@ -135,7 +135,7 @@ PointCloud make_points(std::size_t count) {
 }
 
 TEST(PointsPly, ReadsWhatItWrote) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{50'000}}) {
     auto cloud = make_points(count);
     ASSERT_TRUE(write_points_ply(folder / "p.ply", cloud));
@@ -167,7 +167,7 @@ TEST(PointsPly, ReadsAsciiWithFacesAndFloatColours) {
 }
 
 TEST(PlyHostile, TruncationAndDamageAreSurvived) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   ASSERT_TRUE(write_points_ply(folder / "p.ply", make_points(20)));
   ASSERT_TRUE(write_gaussians_ply(folder / "g.ply", make_cloud(20, 1)));
   std::mt19937 random(6);

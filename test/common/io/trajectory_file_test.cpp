@@ -3,7 +3,7 @@
 #include "common/io/trajectory_file.hpp"
 
 #include "common/io/atomic_file.hpp"
-#include "test/common/io/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ std::vector<StampedPose> make_poses(int count) {
 }
 
 TEST(Tum, ReadsWhatItWrote) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const auto poses = make_poses(100);
   ASSERT_TRUE(write_tum(folder / "a.tum", poses));
   const auto read = read_tum(folder / "a.tum");
@@ -113,7 +113,7 @@ TEST(Tum, ErrorsNameFileAndLine) {
 }
 
 TEST(Kitti, ReadsWhatItWrote) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   std::vector<geometry::RigidTransform> poses;
   for (const auto& pose : make_poses(50)) poses.push_back(pose.world_from_body);
   ASSERT_TRUE(write_kitti(folder / "00.txt", poses));
@@ -134,7 +134,7 @@ TEST(Kitti, RefusesWhatIsNoRotation) {
 }
 
 TEST(Kitti, ReadsTimes) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   ASSERT_TRUE(write_file_atomically(folder / "times.txt", "0.000000e+00\n1.036224e-01\n"));
   const auto times = read_times(folder / "times.txt");
   ASSERT_TRUE(times);

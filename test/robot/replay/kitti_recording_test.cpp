@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/io/image_file.hpp"
 #include "robot/drivers/replay/replay_source.hpp"
-#include "test/robot/replay/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ bool any_python_runs(const std::string& arguments) {
 TEST(KittiRecording, ScansAndPicturesFitEachOther) {
   const fs::path unpacker = shared_data() / "lidar_pack.py";
   if (!fs::exists(drive() / "velodyne") || !fs::exists(unpacker)) GTEST_SKIP() << drive() << " is absent";
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   fs::create_directories(folder.path() / "velodyne");
   fs::create_directories(folder.path() / "image_02");
   std::string arguments = " '" + unpacker.string() + "'";

@@ -5,7 +5,7 @@
 #include "robot/drivers/replay/recorder.hpp"
 #include "robot/drivers/replay/replay_source.hpp"
 #include "test/robot/livox/packet_bytes.hpp"
-#include "test/robot/replay/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,7 @@ void record(Recorder& recorder) {
   }
 }
 
-std::filesystem::path write_recording(const TemporaryFolder& folder) {
+std::filesystem::path write_recording(const test::TempDir& folder) {
   const auto path = folder.path() / "run.mcap";
   auto recorder = Recorder::create(path, sensor::print_rig(small_rig()), "");
   EXPECT_TRUE(recorder.has_value()) << recorder.error().context;
@@ -116,7 +116,7 @@ Counts count_all(ReplaySource& source) {
 }
 
 TEST(Recording, WhatWasRecordedIsReplayed) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto source = ReplaySource::open(write_recording(folder));
   ASSERT_TRUE(source.has_value()) << source.error().context;
   EXPECT_EQ(source->rig().camera->model.width_px, 16);
@@ -131,7 +131,7 @@ TEST(Recording, WhatWasRecordedIsReplayed) {
 }
 
 TEST(Recording, KeepsStampsAndPicturesExactly) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   auto source = ReplaySource::open(write_recording(folder));
   ASSERT_TRUE(source.has_value());
   while (true) {
@@ -149,7 +149,7 @@ TEST(Recording, KeepsStampsAndPicturesExactly) {
 }
 
 TEST(Recording, ATruncatedFileGivesWhatIsWhole) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const auto path = write_recording(folder);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) * 6 / 10);
   auto source = ReplaySource::open(path);
@@ -163,7 +163,7 @@ TEST(Recording, ATruncatedFileGivesWhatIsWhole) {
 }
 
 TEST(Recording, DamagedDatagramsAreCountedAndNotUsed) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   const auto path = folder.path() / "damaged.mcap";
   auto recorder = Recorder::create(path, sensor::print_rig(small_rig()), "");
   ASSERT_TRUE(recorder.has_value());
@@ -186,7 +186,7 @@ TEST(Recording, DamagedDatagramsAreCountedAndNotUsed) {
 }
 
 TEST(Recording, NeedsItsRigAndItsTopics) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   EXPECT_EQ(ReplaySource::open(folder.write("x.mcap", "no recording")).error().code, Errc::kCorrupt);
   const auto path = folder.path() / "bad_rig.mcap";
   auto recorder = Recorder::create(path, "[lidar]\nname = 5\n", "");
@@ -206,7 +206,7 @@ TEST(Recording, NeedsItsRigAndItsTopics) {
 }
 
 TEST(Recorder, AFullQueueDropsAndCounts) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   RecorderConfig config;
   config.queue_items = 10;
   auto recorder = Recorder::create(folder.path() / "slow.mcap", sensor::print_rig(small_rig()), "", config);

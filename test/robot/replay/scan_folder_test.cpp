@@ -5,7 +5,7 @@
 #include "robot/drivers/replay/replay_source.hpp"
 #include "robot/drivers/replay/scan_file.hpp"
 #include "test/robot/replay/kitti_text.hpp"
-#include "test/robot/replay/temporary_folder.hpp"
+#include "test/support/temp_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,6 +25,11 @@ std::vector<sensor::Measurement> read_all(ReplaySource& source) {
     if (!next || !*next) return all;
     all.push_back(**std::move(next));
   }
+}
+
+/// A scan of these x, y, z, intensity values.
+void write_scan(const test::TempDir& folder, const std::string& name, const std::vector<float>& values) {
+  (void)folder.write(name, std::as_bytes(std::span(values)));
 }
 
 std::vector<std::byte> picture(int width, int height) {
@@ -79,10 +84,10 @@ TEST(FrameTimes, ReadsSecondsAndNamesTheBadLine) {
 }
 
 TEST(ScanFolder, ReplaysKittisLayoutInTimeOrder) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   for (const int number : {5, 6, 8}) {  // 7 is missing
-    folder.write_scan("velodyne/000000000" + std::to_string(number) + ".bin",
-                      {static_cast<float>(number), 0, 0, 0.5F, 1, 1, 1, 1});
+    write_scan(folder, "velodyne/000000000" + std::to_string(number) + ".bin",
+               {static_cast<float>(number), 0, 0, 0.5F, 1, 1, 1, 1});
     folder.write("image_02/000000000" + std::to_string(number) + ".jpg", picture(64, 48));
   }
   folder.write("calib_2011_09_26.txt", std::string_view(kKittiCalib));
@@ -113,9 +118,9 @@ TEST(ScanFolder, ReplaysKittisLayoutInTimeOrder) {
 }
 
 TEST(ScanFolder, ReplaysAFolderOfScansWithTimes) {
-  const TemporaryFolder folder;
-  folder.write_scan("0.bin", {1, 0, 0, 0});
-  folder.write_scan("1.bin", {2, 0, 0, 0});
+  const test::TempDir folder;
+  write_scan(folder, "0.bin", {1, 0, 0, 0});
+  write_scan(folder, "1.bin", {2, 0, 0, 0});
   folder.write("times.txt", "10.0\n10.2\n");
   auto source = ReplaySource::open(folder.path());
   ASSERT_TRUE(source.has_value()) << source.error().context;
@@ -127,9 +132,9 @@ TEST(ScanFolder, ReplaysAFolderOfScansWithTimes) {
 }
 
 TEST(ScanFolder, SkipsADamagedPictureAndSaysSo) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   for (const char* number : {"0", "1"})
-    folder.write_scan(std::string("velodyne/") + number + ".bin", {1, 0, 0, 0});
+    write_scan(folder, std::string("velodyne/") + number + ".bin", {1, 0, 0, 0});
   auto damaged = picture(64, 48);
   folder.write("image_02/0.jpg", damaged);
   damaged.resize(damaged.size() / 2);
@@ -151,7 +156,7 @@ void expect_refused(const std::filesystem::path& path, Errc code, const std::str
 }
 
 TEST(ScanFolder, SaysWhatIsWrongWithAFolder) {
-  const TemporaryFolder folder;
+  const test::TempDir folder;
   expect_refused(folder.path() / "nowhere", Errc::kNotFound, "does not exist");
   expect_refused(folder.path(), Errc::kInvalidArgument, "Found: nothing");
   expect_refused(folder.write("a/notes.txt", "x").parent_path(), Errc::kInvalidArgument, "Found: notes.txt");
@@ -159,7 +164,7 @@ TEST(ScanFolder, SaysWhatIsWrongWithAFolder) {
   expect_refused(folder.write("b/velodyne/0000000001.mmx", "x").parent_path().parent_path(),
                  Errc::kInvalidArgument, "unpack");
   expect_refused(folder.write("c/0.bin", "123456789").parent_path(), Errc::kCorrupt, "multiple of 16");
-  folder.write_scan("d/velodyne/0.bin", {1, 0, 0, 0});
+  write_scan(folder, "d/velodyne/0.bin", {1, 0, 0, 0});
   folder.write("d/image_02/0.jpg", picture(8, 8));
   expect_refused(folder.path() / "d", Errc::kInvalidArgument, "no calib_*.txt");
   folder.write("d/calib.txt", "P_rect_02: 1\n");
