@@ -44,7 +44,8 @@ struct Keyframe {
   Eigen::Matrix<double, 6, 6> pose_covariance =
       Eigen::Matrix<double, 6, 6>::Zero();  ///< rotation, translation
   std::uint32_t pose_version = 0;
-  float exposure_s = 0.0F;
+  float exposure_s =
+      0.0F;  ///< that `image` and the colours are scaled to, one for the whole map; 0 = unknown
   std::optional<sensor::CameraMount> camera;  ///< absent with a LiDAR-only rig
   std::shared_ptr<const EncodedImage> image;  ///< null without a camera; taken at `stamp`
   std::vector<ColouredPoint> points_in_body;

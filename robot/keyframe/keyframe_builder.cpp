@@ -22,6 +22,15 @@ std::vector<map::ColouredPoint> grey_points(const tracking::TrackedGroup& group)
   return points;
 }
 
+Status check_size(const sensor::ImageRgb8& picture, const geometry::CameraModel& model) {
+  if (picture.width_px == model.width_px && picture.height_px == model.height_px) return {};
+  return fail(Errc::kInvalidArgument, "the camera's picture is " + std::to_string(picture.width_px) + "x" +
+                                          std::to_string(picture.height_px) + " but the rig says " +
+                                          std::to_string(model.width_px) + "x" +
+                                          std::to_string(model.height_px) +
+                                          ": correct camera.width_px and height_px in rig.toml");
+}
+
 }  // namespace
 
 KeyframeBuilder::KeyframeBuilder(const KeyframeConfig& config, const sensor::Rig& rig)
@@ -55,20 +64,14 @@ std::vector<map::ColouredPoint> KeyframeBuilder::collect_points(const tracking::
 Result<std::shared_ptr<const map::Keyframe>> KeyframeBuilder::add(
     const tracking::TrackedGroup& group, const std::optional<sync::GroupImage>& image) {
   if (group.health.state == tracking::TrackingState::kInitialising) return nullptr;
+  sensor::ImageRgb8 picture;
+  if (image) {
+    if (rig_.camera) EDGESPLAT_TRY_STATUS(check_size(*image->image, rig_.camera->model));
+    picture = exposure_.equalise(*image->image, image->exposure_s);
+  }
   if (colouriser_) {
     colouriser_->add_points(group);
-    if (image) {
-      const sensor::ImageRgb8& picture = *image->image;
-      const geometry::CameraModel& model = rig_.camera->model;
-      if (picture.width_px != model.width_px || picture.height_px != model.height_px) {
-        return fail(Errc::kInvalidArgument, "the camera's picture is " + std::to_string(picture.width_px) +
-                                                "x" + std::to_string(picture.height_px) +
-                                                " but the rig says " + std::to_string(model.width_px) + "x" +
-                                                std::to_string(model.height_px) +
-                                                ": correct camera.width_px and height_px in rig.toml");
-      }
-      colouriser_->add_image(group, picture);
-    }
+    if (image) colouriser_->add_image(group, picture);
   }
   // A coasting pose is a guess: nothing is built on it.
   if (group.health.state != tracking::TrackingState::kTracking) return nullptr;
@@ -77,11 +80,11 @@ Result<std::shared_ptr<const map::Keyframe>> KeyframeBuilder::add(
   auto keyframe = std::make_shared<map::Keyframe>();
   if (image) {
     auto encoded = std::make_shared<map::EncodedImage>();
-    EDGESPLAT_TRY(encoded->bytes, io::encode_jpeg(*image->image, config_.jpeg_quality));
-    encoded->width_px = image->image->width_px;
-    encoded->height_px = image->image->height_px;
+    EDGESPLAT_TRY(encoded->bytes, io::encode_jpeg(picture, config_.jpeg_quality));
+    encoded->width_px = picture.width_px;
+    encoded->height_px = picture.height_px;
     keyframe->image = std::move(encoded);
-    keyframe->exposure_s = image->exposure_s;
+    keyframe->exposure_s = image->exposure_s > 0.0F ? exposure_.reference_s() : 0.0F;
   }
   keyframe->id = {next_id_++};
   keyframe->stamp = group.stamp;

@@ -5,6 +5,7 @@
 #include "common/base/result.hpp"
 #include "common/map/keyframe.hpp"
 #include "robot/keyframe/colouriser.hpp"
+#include "robot/keyframe/exposure.hpp"
 #include "robot/keyframe/keyframe_config.hpp"
 #include "robot/sync/measure_group.hpp"
 #include "robot/tracking/tracked_group.hpp"
@@ -36,6 +37,7 @@ class KeyframeBuilder {
 
   KeyframeConfig config_;
   sensor::Rig rig_;
+  ExposureEqualiser exposure_;
   std::optional<Colouriser> colouriser_;
   std::uint32_t next_id_ = 0;
   std::optional<geometry::RigidTransform> last_odom_from_body_;
