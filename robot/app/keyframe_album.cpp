@@ -4,8 +4,8 @@
 
 #include "common/io/atomic_file.hpp"
 #include "common/io/image_file.hpp"
+#include "kernels/image/undistort.hpp"
 #include "robot/render/draw_points.hpp"
-#include "robot/render/undistort.hpp"
 #include "robot/render/view.hpp"
 
 #include <nlohmann/json.hpp>
@@ -35,47 +35,56 @@ std::string describe(const map::Keyframe& keyframe, const geometry::CameraModel&
                           {"fx_px", pinhole.fx_px},
                           {"fy_px", pinhole.fy_px},
                           {"cx_px", pinhole.cx_px},
-                          {"cy_px", pinhole.cy_px}}},
-                        {"points", keyframe.points_in_body.size()}}
+                          {"cy_px", pinhole.cy_px}}}}
       .dump(1);
 }
 
-Status write_one(const map::Keyframe& keyframe, const std::filesystem::path& folder,
-                 const gaussian::GaussianCloud& cloud, const geometry::RigidTransform& map_from_odom) {
+geometry::RigidTransform map_from_camera(const map::Keyframe& keyframe,
+                                         const geometry::RigidTransform& map_from_odom) {
+  return map_from_odom * keyframe.odom_from_body * keyframe.camera->body_from_camera;
+}
+
+std::string number_of(const map::Keyframe& keyframe) {
   char name[16];
   std::snprintf(name, sizeof name, "%06u", keyframe.id.value);
-  const geometry::CameraModel& camera = keyframe.camera->model;
-  const geometry::CameraModel pinhole = render::undistorted_model(camera);
-  const geometry::RigidTransform map_from_camera =
-      map_from_odom * keyframe.odom_from_body * keyframe.camera->body_from_camera;
+  return name;
+}
 
+/// The camera is the same all the run.
+Status write_picture(const map::Keyframe& keyframe, const image::Undistorter& undistorter,
+                     const std::filesystem::path& folder, const geometry::RigidTransform& map_from_odom) {
   EDGESPLAT_TRY(const sensor::ImageRgb8 picture, io::decode_rgb8(keyframe.image->bytes));
-  const std::string stem = (folder / "keyframes" / name).string();
-  EDGESPLAT_TRY_STATUS(io::save_image(stem + ".jpg", render::undistort(picture, camera)));
-  EDGESPLAT_TRY_STATUS(
-      io::write_file_atomically(stem + ".json", describe(keyframe, pinhole, map_from_camera)));
+  const std::string stem = (folder / "keyframes" / number_of(keyframe)).string();
+  EDGESPLAT_TRY_STATUS(io::save_image(stem + ".jpg", undistorter.apply(picture)));
+  return io::write_file_atomically(
+      stem + ".json", describe(keyframe, undistorter.model(), map_from_camera(keyframe, map_from_odom)));
+}
 
-  sensor::ImageRgb8 overlay = picture;
-  render::draw_points_by_depth(keyframe.points_in_body, keyframe.camera->body_from_camera.inverse(), camera,
-                               kOverlayRangeM, overlay);
-  EDGESPLAT_TRY_STATUS(io::save_image(stem + "_overlay.png", overlay));
-
-  EDGESPLAT_TRY(const render::View view, render::draw_view(cloud, pinhole, map_from_camera.inverse()));
-  return io::save_image(folder / "renders" / (std::string(name) + ".png"), view.picture);
+Status write_overlay_and_render(const map::Keyframe& keyframe, const geometry::CameraModel& pinhole,
+                                const std::filesystem::path& folder, const gaussian::GaussianCloud& cloud,
+                                const geometry::RigidTransform& map_from_odom) {
+  EDGESPLAT_TRY(sensor::ImageRgb8 overlay, io::decode_rgb8(keyframe.image->bytes));
+  render::draw_points_by_depth(keyframe.points_in_body, keyframe.camera->body_from_camera.inverse(),
+                               keyframe.camera->model, kOverlayRangeM, overlay);
+  const std::string number = number_of(keyframe);
+  EDGESPLAT_TRY_STATUS(io::save_image(folder / "keyframes" / (number + "_overlay.png"), overlay));
+  EDGESPLAT_TRY(const render::View view,
+                render::draw_view(cloud, pinhole, map_from_camera(keyframe, map_from_odom).inverse()));
+  return io::save_image(folder / "renders" / (number + ".png"), view.picture);
 }
 
 }  // namespace
 
 void KeyframeAlbum::add(std::shared_ptr<const map::Keyframe> keyframe) {
   if (!keyframe->image || !keyframe->camera) return;
-  if (seen_++ % stride_ != 0) return;
-  if (keyframes_.size() >= max_keyframes_) {
-    for (std::size_t i = 0; 2 * i < keyframes_.size(); ++i) keyframes_[i] = std::move(keyframes_[2 * i]);
-    keyframes_.resize((keyframes_.size() + 1) / 2);
-    stride_ *= 2;
-    if ((seen_ - 1) % stride_ != 0) return;
-  }
-  keyframes_.push_back(std::move(keyframe));
+  auto without_points = std::make_shared<map::Keyframe>();
+  without_points->id = keyframe->id;
+  without_points->stamp = keyframe->stamp;
+  without_points->odom_from_body = keyframe->odom_from_body;
+  without_points->camera = keyframe->camera;
+  without_points->image = keyframe->image;
+  pictures_.add(std::move(without_points));
+  whole_.add(std::move(keyframe));
 }
 
 Status KeyframeAlbum::write(const std::filesystem::path& folder, const gaussian::GaussianCloud& cloud,
@@ -85,8 +94,14 @@ Status KeyframeAlbum::write(const std::filesystem::path& folder, const gaussian:
     std::filesystem::create_directories(folder / sub, error);
     if (error) return fail(Errc::kIo, "cannot create " + (folder / sub).string() + ": " + error.message());
   }
-  for (const auto& keyframe : keyframes_) {
-    EDGESPLAT_TRY_STATUS(write_one(*keyframe, folder, cloud, map_from_odom));
+  if (pictures_.kept().empty()) return {};
+  const image::Undistorter undistorter(pictures_.kept().front()->camera->model);
+  for (const auto& keyframe : pictures_.kept()) {
+    EDGESPLAT_TRY_STATUS(write_picture(*keyframe, undistorter, folder, map_from_odom));
+  }
+  for (const auto& keyframe : whole_.kept()) {
+    EDGESPLAT_TRY_STATUS(
+        write_overlay_and_render(*keyframe, undistorter.model(), folder, cloud, map_from_odom));
   }
   return {};
 }

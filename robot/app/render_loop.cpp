@@ -3,7 +3,7 @@
 #include "robot/app/render_loop.hpp"
 
 #include "common/log/log.hpp"
-#include "robot/render/undistort.hpp"
+#include "kernels/image/undistort.hpp"
 #include "robot/render/view.hpp"
 
 #include <utility>
@@ -13,7 +13,7 @@ namespace edgesplat::app {
 RenderLoop::RenderLoop(const RenderLoopConfig& config, const sensor::CameraMount& camera, MapView map_view,
                        const Clock& clock, metrics::Registry& metrics)
     : config_(config),
-      camera_{render::undistorted_model(camera.model), camera.body_from_camera, camera.stamp_delay_s},
+      camera_{image::undistorted_model(camera.model), camera.body_from_camera, camera.stamp_delay_s},
       map_view_(std::move(map_view)),
       clock_(clock),
       frame_ms_(metrics.histogram("render.frame_ms")),

@@ -40,8 +40,10 @@ std::vector<KeyframeFiles> find_keyframes(const std::filesystem::path& robot) {
        it.increment(error)) {
     if (it->path().extension() != ".jpg") continue;
     const std::string number = it->path().stem().string();
-    keyframes.push_back({number, it->path(), existing(robot / "keyframes" / (number + "_overlay.png")),
-                         existing(robot / "renders" / (number + ".png"))});
+    KeyframeFiles files{number, it->path(), existing(robot / "keyframes" / (number + "_overlay.png")),
+                        existing(robot / "renders" / (number + ".png"))};
+    if (files.overlay.empty() && files.render.empty()) continue;  // kept for scoring, not to be shown
+    keyframes.push_back(std::move(files));
   }
   std::sort(keyframes.begin(), keyframes.end(),
             [](const KeyframeFiles& a, const KeyframeFiles& b) { return a.number < b.number; });

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
-#include "robot/render/undistort.hpp"
+#include "kernels/image/undistort.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace edgesplat::render {
+namespace edgesplat::image {
 namespace {
 
 geometry::CameraModel distorted_camera() {
@@ -30,7 +30,7 @@ sensor::ImageRgb8 picture_of_directions(const geometry::CameraModel& camera) {
 
 TEST(Undistort, ShowsTheSceneAsThePinholeCameraSeesIt) {
   const auto camera = distorted_camera();
-  const auto got = undistort(picture_of_directions(camera), camera);
+  const auto got = Undistorter(camera).apply(picture_of_directions(camera));
   const auto want = picture_of_directions(undistorted_model(camera));
   int compared = 0;
   for (int y = 20; y < 100; ++y) {
@@ -45,17 +45,23 @@ TEST(Undistort, ShowsTheSceneAsThePinholeCameraSeesIt) {
 TEST(Undistort, LeavesAnUndistortedPictureAlone) {
   const auto camera = undistorted_model(distorted_camera());
   const auto image = picture_of_directions(camera);
-  EXPECT_EQ(undistort(image, camera).values, image.values);
+  EXPECT_EQ(Undistorter(camera).apply(image).values, image.values);
 }
 
 TEST(Undistort, WhatTheCameraNeverSawIsBlack) {
   auto camera = distorted_camera();
   camera.distortion = {0.6, 0.0, 0.0, 0.0};  // pincushion: the pinhole's corners lie outside the picture
   sensor::ImageRgb8 white(camera.width_px, camera.height_px, 255);
-  const auto got = undistort(white, camera);
+  const auto got = Undistorter(camera).apply(white);
   EXPECT_EQ(got.pixel(0, 0)[0], 0);
   EXPECT_EQ(got.pixel(80, 60)[0], 255);
+  const Undistorter undistorter(camera);
+  EXPECT_EQ(undistorter.seen()[0], 0.0F);
+  EXPECT_EQ(undistorter.seen()[60 * 160 + 80], 1.0F);
+  for (std::size_t pixel = 0; pixel < undistorter.seen().size(); ++pixel) {
+    EXPECT_EQ(got.values[3 * pixel] == 255, undistorter.seen()[pixel] == 1.0F) << pixel;
+  }
 }
 
 }  // namespace
-}  // namespace edgesplat::render
+}  // namespace edgesplat::image

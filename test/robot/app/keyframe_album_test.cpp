@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/app/keyframe_album.hpp"
+
+#include "common/io/image_file.hpp"
+#include "test/support/temp_dir.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace edgesplat::app {
+namespace {
+
+std::shared_ptr<const map::Keyframe> keyframe(std::uint32_t id) {
+  auto made = std::make_shared<map::Keyframe>();
+  made->id = map::KeyframeId{id};
+  made->odom_from_body.translation_m = {0.5 * id, 0.0, 0.0};
+  made->camera.emplace();
+  made->camera->model = {geometry::CameraKind::kPinhole, 32, 24, 30.0, 30.0, 16.0, 12.0, {-0.1, 0, 0, 0}};
+  auto image = std::make_shared<map::EncodedImage>();
+  image->bytes = *io::encode_jpeg(sensor::ImageRgb8(32, 24, 128), 90);
+  made->image = image;
+  made->points_in_body = {{{0.0F, 0.0F, 2.0F}, {1, 2, 3}, true}};
+  return made;
+}
+
+TEST(KeyframeAlbum, WritesEveryPictureButOnlyAFewWhole) {
+  KeyframeAlbum album(4);
+  for (std::uint32_t id = 0; id < 20; ++id) album.add(keyframe(id));
+  const test::TempDir folder;
+  geometry::RigidTransform map_from_odom;
+  map_from_odom.translation_m = {0.0, 7.0, 0.0};
+  const Status written = album.write(folder.path(), {}, map_from_odom);
+  ASSERT_TRUE(written) << written.error().context;
+
+  int pictures = 0;
+  int overlays = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "keyframes")) {
+    pictures += entry.path().extension() == ".jpg" ? 1 : 0;
+    overlays += entry.path().extension() == ".png" ? 1 : 0;
+  }
+  EXPECT_EQ(pictures, 20);
+  EXPECT_EQ(overlays, static_cast<int>(album.size()));
+  EXPECT_LE(album.size(), 4U);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "renders" / "000000.png"));
+
+  std::ifstream text(folder.path() / "keyframes" / "000003.json");
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_DOUBLE_EQ(json["map_from_camera"]["translation_m"][0].get<double>(), 1.5);
+  EXPECT_DOUBLE_EQ(json["map_from_camera"]["translation_m"][1].get<double>(), 7.0);
+}
+
+TEST(KeyframeAlbum, LeavesOutWhatHasNoPicture) {
+  KeyframeAlbum album(4);
+  auto blind = std::make_shared<map::Keyframe>(*keyframe(0));
+  blind->image = nullptr;
+  album.add(blind);
+  EXPECT_EQ(album.size(), 0U);
+}
+
+}  // namespace
+}  // namespace edgesplat::app
