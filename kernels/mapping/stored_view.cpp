@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/mapping/stored_view.hpp"
+
+#include <string>
+#include <utility>
+
+namespace edgesplat::mapping {
+namespace {
+
+constexpr float kNearest_m = 0.1F;
+
+}  // namespace
+
+std::vector<SparseDepth> project_depths(std::span<const map::ColouredPoint> points_in_body,
+                                        const geometry::RigidTransform& camera_from_body,
+                                        const geometry::CameraModel& pinhole) {
+  const Eigen::Matrix3f rotation = camera_from_body.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f translation = camera_from_body.translation_m.cast<float>();
+  const auto fx = static_cast<float>(pinhole.fx_px), fy = static_cast<float>(pinhole.fy_px);
+  const auto cx = static_cast<float>(pinhole.cx_px), cy = static_cast<float>(pinhole.cy_px);
+  const auto width = static_cast<float>(pinhole.width_px), height = static_cast<float>(pinhole.height_px);
+  std::vector<float> nearest(
+      static_cast<std::size_t>(pinhole.width_px) * static_cast<std::size_t>(pinhole.height_px), 0.0F);
+  for (const map::ColouredPoint& point : points_in_body) {
+    const Eigen::Vector3f p = rotation * point.p_in_body_m + translation;
+    if (!(p.z() > kNearest_m)) continue;
+    const float u = fx * p.x() / p.z() + cx + 0.5F;  // pixel centres lie at whole numbers
+    const float v = fy * p.y() / p.z() + cy + 0.5F;
+    if (!(u >= 0.0F && v >= 0.0F && u < width && v < height)) continue;
+    float& depth = nearest[static_cast<std::size_t>(v) * static_cast<std::size_t>(pinhole.width_px) +
+                           static_cast<std::size_t>(u)];
+    if (depth == 0.0F || p.z() < depth) depth = p.z();
+  }
+  std::vector<SparseDepth> depths;
+  for (std::size_t pixel = 0; pixel < nearest.size(); ++pixel) {
+    if (nearest[pixel] > 0.0F) depths.push_back({static_cast<std::uint32_t>(pixel), nearest[pixel]});
+  }
+  return depths;
+}
+
+Result<StoredView> make_view(const map::Keyframe& keyframe, const geometry::RigidTransform& map_from_body,
+                             const sensor::ImageRgb8& picture,
+                             std::shared_ptr<const image::Undistorter> undistorter) {
+  const geometry::CameraModel& model = undistorter->model();
+  if (picture.width_px != model.width_px || picture.height_px != model.height_px) {
+    return fail(Errc::kInvalidArgument,
+                "keyframe " + std::to_string(keyframe.id.value) + "'s picture is not of its camera's size");
+  }
+  StoredView view;
+  view.keyframe = keyframe.id;
+  view.pose_version = keyframe.pose_version;
+  view.map_from_camera = map_from_body * keyframe.camera->body_from_camera;
+  view.picture = undistorter->apply(picture);
+  view.depths = project_depths(keyframe.points_in_body, keyframe.camera->body_from_camera.inverse(), model);
+  view.undistorter = std::move(undistorter);
+  return view;
+}
+
+}  // namespace edgesplat::mapping

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+#include "common/map/keyframe.hpp"
+#include "common/sensor/image.hpp"
+#include "kernels/image/undistort.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace edgesplat::mapping {
+
+/// A measured depth in one pixel.
+struct SparseDepth {
+  std::uint32_t pixel;  ///< row * width + column
+  float depth_m;        ///< z in the camera frame
+};
+
+/// A keyframe as the optimiser looks at it: the undistorted picture, what the LiDAR measured in it, and from
+/// where.
+struct StoredView {
+  map::KeyframeId keyframe;
+  std::uint32_t pose_version = 0;
+  geometry::RigidTransform map_from_camera;
+  std::shared_ptr<const image::Undistorter> undistorter;  ///< shared by all views of one camera
+  sensor::ImageRgb8 picture;
+  std::vector<SparseDepth> depths;  ///< in the order of the pixels, one a pixel: the nearest
+
+  [[nodiscard]] const geometry::CameraModel& camera() const { return undistorter->model(); }
+  [[nodiscard]] std::size_t size_bytes() const {
+    return sizeof(*this) + picture.values.size() + depths.size() * sizeof(SparseDepth);
+  }
+};
+
+/// The nearest of the points in each pixel they fall into; points nearer than 0.1 m or outside are left out.
+[[nodiscard]] std::vector<SparseDepth> project_depths(std::span<const map::ColouredPoint> points_in_body,
+                                                      const geometry::RigidTransform& camera_from_body,
+                                                      const geometry::CameraModel& pinhole);
+
+/// `picture`: the keyframe's, decoded, of the camera's size, else kInvalidArgument. The keyframe must have a
+/// camera.
+[[nodiscard]] Result<StoredView> make_view(const map::Keyframe& keyframe,
+                                           const geometry::RigidTransform& map_from_body,
+                                           const sensor::ImageRgb8& picture,
+                                           std::shared_ptr<const image::Undistorter> undistorter);
+
+}  // namespace edgesplat::mapping
