@@ -1,16 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
+#include "kernels/core/simd_variants.hpp"
 #include "kernels/splat/blend.hpp"
-#include "kernels/splat/exp_fast.hpp"
-#include "kernels/splat/splat_one.hpp"
+#include "kernels/splat/pixel_alpha.hpp"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-
-// Inlined into each variant below, which then compiles it for its own vectors.
-#define EDGESPLAT_INLINE [[gnu::always_inline]] inline
 
 namespace edgesplat::splat {
 namespace {
@@ -37,14 +33,9 @@ void clear(Tile& tile) {
 
 /// Adds one splat to one row of pixels. By value: else the compiler fears that the tile overlaps the splat.
 EDGESPLAT_INLINE void add_to_row(const Splat s, float x0_px, float dy, int y, Tile& tile) {
-  const float b = s.conic[1] * dy;
-  const float c = 0.5F * s.conic[2] * dy * dy;
+  const RowOfSplat row = row_of(s, dy);
   for (int x = 0; x < kTilePx; ++x) {
-    const float dx = x0_px + static_cast<float>(x) - s.u_px;
-    const float power = -(0.5F * s.conic[0] * dx * dx + b * dx + c);
-    const float alpha_raw = s.opacity * exp_fast(std::max(std::min(power, 0.0F), -20.0F));
-    const float alpha_cut = std::min(alpha_raw, kMaxAlpha);
-    const float alpha = alpha_cut < kMinAlpha ? 0.0F : alpha_cut;
+    const float alpha = blended_alpha(raw_alpha(s.opacity, row, x0_px + static_cast<float>(x) - s.u_px));
     const float before = tile.transmittance[y][x];
     const float after = before * (1.0F - alpha);
     const float active = after >= kMinTransmittance ? tile.active[y][x] : 0.0F;
@@ -87,64 +78,28 @@ void write_tile(const Tile& tile, int column, int row, const View& view, const R
 EDGESPLAT_INLINE void blend_tile_inline(std::span<const Splat> splats, std::span<const std::uint32_t> list,
                                         int column, int row, Tile& tile) {
   constexpr std::size_t kCheckEvery = 16;  // looking whether the tile is full costs about one splat
-  constexpr auto kRows = static_cast<float>(kTilePx);
   const auto x0 = static_cast<float>(column * kTilePx);
   const auto y0 = static_cast<float>(row * kTilePx);
   clear(tile);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Splat& s = splats[list[i]];
-    // Clamped as floats: a splat may be larger than any int.
-    const int first = static_cast<int>(std::clamp(std::ceil(s.v_px - s.half_height_px - y0), 0.0F, kRows));
-    const int last =
-        static_cast<int>(std::clamp(std::floor(s.v_px + s.half_height_px - y0), -1.0F, kRows - 1));
-    for (int y = first; y <= last; ++y) add_to_row(s, x0, y0 + static_cast<float>(y) - s.v_px, y, tile);
+    const TileRows rows = rows_reached(s, y0);
+    for (int y = rows.first; y <= rows.last; ++y)
+      add_to_row(s, x0, y0 + static_cast<float>(y) - s.v_px, y, tile);
     if (i % kCheckEvery == kCheckEvery - 1 && !any_active(tile)) return;
   }
 }
 
-using BlendTile = void (*)(std::span<const Splat>, std::span<const std::uint32_t>, int, int, Tile&);
-
-void blend_tile(std::span<const Splat> splats, std::span<const std::uint32_t> list, int column, int row,
-                Tile& tile) {
-  blend_tile_inline(splats, list, column, row, tile);
-}
-
-#if defined(__x86_64__)
-#ifdef __clang__  // knows no vector width here and takes 256 bits
-#define EDGESPLAT_AVX512 "avx512f,avx512vl,avx512dq,avx512bw"
-#else
-#define EDGESPLAT_AVX512 "avx512f,avx512vl,avx512dq,avx512bw,prefer-vector-width=512"
-#endif
-// The same code for wider vectors: the same operations in the same order and no fused multiply-add, so the
-// same picture to the last bit.
-[[gnu::target("avx2")]] void blend_tile_avx2(std::span<const Splat> splats,
-                                             std::span<const std::uint32_t> list, int column, int row,
-                                             Tile& tile) {
-  blend_tile_inline(splats, list, column, row, tile);
-}
-[[gnu::target(EDGESPLAT_AVX512)]] void blend_tile_avx512(std::span<const Splat> splats,
-                                                         std::span<const std::uint32_t> list, int column,
-                                                         int row, Tile& tile) {
-  blend_tile_inline(splats, list, column, row, tile);
-}
-#endif
-
-BlendTile fastest_blend_tile() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")) {
-    return blend_tile_avx512;
-  }
-  if (__builtin_cpu_supports("avx2")) return blend_tile_avx2;
-#endif
-  return blend_tile;
-}
+EDGESPLAT_SIMD_VARIANTS(blend_tile,
+                        (std::span<const Splat> splats, std::span<const std::uint32_t> list, int column,
+                         int row, Tile& tile),
+                        (splats, list, column, row, tile))
 
 }  // namespace
 
 void blend(std::span<const Splat> splats, const TileLists& tiles, const View& view,
            const RenderOptions& options, const BlendOutputs& out) {
-  const BlendTile draw = fastest_blend_tile();
+  const auto draw = fastest_blend_tile();
   tbb::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
     const int column = t % tiles.columns;
     const int row = t / tiles.columns;

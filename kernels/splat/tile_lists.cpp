@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace edgesplat::splat {
 namespace {
@@ -57,30 +58,73 @@ bool touches(const Splat& s, int column, int row, float reach2) {
   return least_distance2(s, x0, y0, x0 + kSpan, y0 + kSpan) <= reach2;
 }
 
-/// The splats of one row of tiles, nearest first.
-using RowList = std::vector<std::uint32_t>;
+/// Splats are dealt out in this many runs whatever the number of threads; the result does not depend on it.
+constexpr std::size_t kParts = 32;
 
-/// One pass over all splats, so that a row need not look at those of the others.
-std::vector<RowList> bin_by_row(std::span<const Splat> splats, int rows) {
-  std::vector<RowList> lists(static_cast<std::size_t>(rows));
-  for (std::size_t i = 0; i < splats.size(); ++i) {
-    const Range range = tiles_touched(splats[i].v_px, splats[i].half_height_px, rows);
-    for (int row = range.first; row < range.last; ++row)
-      lists[static_cast<std::size_t>(row)].push_back(static_cast<std::uint32_t>(i));
-  }
-  return lists;
-}
+/// What one run of splats touches.
+struct Part {
+  std::size_t first = 0, last = 0;    ///< splats [first, last)
+  std::vector<std::uint32_t> tiles;   ///< splat by splat
+  std::vector<std::uint32_t> counts;  ///< of tiles, one a splat
+  std::vector<std::uint32_t> places;  ///< one a tile: first how many, then where the next goes
+};
 
-void fill_row(std::span<const Splat> splats, const RowList& of_row, int row, TileLists& lists,
-              std::vector<std::vector<std::uint32_t>>& tiles) {
-  for (const std::uint32_t i : of_row) {
+void find_tiles(std::span<const Splat> splats, const TileLists& lists, Part& part) {
+  part.places.assign(static_cast<std::size_t>(lists.columns * lists.rows), 0);
+  part.counts.reserve(part.last - part.first);
+  for (std::size_t i = part.first; i < part.last; ++i) {
     const Splat& s = splats[i];
     const Range columns = tiles_touched(s.u_px, s.half_width_px, lists.columns);
+    const Range rows = tiles_touched(s.v_px, s.half_height_px, lists.rows);
     // A hair more than the blend's own threshold, so that rounding never loses a pixel.
     const float reach2 = 2.0F * std::log(s.opacity / kMinAlpha) * 1.0001F + 1e-4F;
-    for (int column = columns.first; column < columns.last; ++column) {
-      if (touches(s, column, row, reach2))
-        tiles[static_cast<std::size_t>(row * lists.columns + column)].push_back(i);
+    const std::size_t before = part.tiles.size();
+    for (int row = rows.first; row < rows.last; ++row) {
+      for (int column = columns.first; column < columns.last; ++column) {
+        if (!touches(s, column, row, reach2)) continue;
+        const auto tile = static_cast<std::uint32_t>(row * lists.columns + column);
+        part.tiles.push_back(tile);
+        ++part.places[tile];
+      }
+    }
+    part.counts.push_back(static_cast<std::uint32_t>(part.tiles.size() - before));
+  }
+}
+
+/// Fills lists.starts and turns the counts per part and tile into places: tile by tile, in each tile part by
+/// part, so that a tile keeps the order of the splats.
+void lay_out(std::vector<Part>& parts, TileLists& lists) {
+  const auto tiles = static_cast<std::size_t>(lists.columns * lists.rows);
+  lists.starts.resize(tiles + 1);
+  std::uint32_t next = 0;
+  for (std::size_t t = 0; t < tiles; ++t) {
+    lists.starts[t] = next;
+    for (Part& part : parts) next += std::exchange(part.places[t], next);
+  }
+  lists.starts[tiles] = next;
+  lists.splats.resize(next);
+  lists.slots.resize(next);
+}
+
+void number_slots(const std::vector<Part>& parts, TileLists& lists) {
+  std::uint32_t next = 0;
+  for (const Part& part : parts) {
+    for (const std::uint32_t count : part.counts) {
+      lists.splat_starts.push_back(next);
+      next += count;
+    }
+  }
+  lists.splat_starts.push_back(next);
+}
+
+void deal_out(Part& part, TileLists& lists) {
+  std::uint32_t slot = lists.splat_starts[part.first];
+  auto tile = part.tiles.begin();
+  for (std::size_t i = part.first; i < part.last; ++i) {
+    for (std::uint32_t k = 0; k < part.counts[i - part.first]; ++k, ++tile, ++slot) {
+      const std::uint32_t place = part.places[*tile]++;
+      lists.splats[place] = static_cast<std::uint32_t>(i);
+      lists.slots[place] = slot;
     }
   }
 }
@@ -91,19 +135,16 @@ TileLists make_tile_lists(std::span<const Splat> splats, int width_px, int heigh
   TileLists lists;
   lists.columns = (width_px + kTilePx - 1) / kTilePx;
   lists.rows = (height_px + kTilePx - 1) / kTilePx;
-  std::vector<std::vector<std::uint32_t>> tiles(static_cast<std::size_t>(lists.columns * lists.rows));
-  const std::vector<RowList> by_row = bin_by_row(splats, lists.rows);
-  tbb::parallel_for(0, lists.rows, [&](int row) {
-    fill_row(splats, by_row[static_cast<std::size_t>(row)], row, lists, tiles);
+  std::vector<Part> parts(kParts);
+  tbb::parallel_for(std::size_t{0}, kParts, [&](std::size_t p) {
+    parts[p].first = splats.size() * p / kParts;
+    parts[p].last = splats.size() * (p + 1) / kParts;
+    find_tiles(splats, lists, parts[p]);
   });
-  lists.starts.reserve(tiles.size() + 1);
-  lists.starts.push_back(0);
-  for (const auto& tile : tiles)
-    lists.starts.push_back(lists.starts.back() + static_cast<std::uint32_t>(tile.size()));
-  lists.splats.resize(lists.starts.back());
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
-    std::copy(tiles[t].begin(), tiles[t].end(), lists.splats.begin() + lists.starts[t]);
-  });
+  lists.splat_starts.reserve(splats.size() + 1);
+  number_slots(parts, lists);
+  lay_out(parts, lists);
+  tbb::parallel_for(std::size_t{0}, kParts, [&](std::size_t p) { deal_out(parts[p], lists); });
   return lists;
 }
 

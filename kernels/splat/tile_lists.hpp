@@ -18,10 +18,19 @@ struct TileLists {
   int rows = 0;
   std::vector<std::uint32_t> starts;  ///< [columns * rows + 1] into `splats`
   std::vector<std::uint32_t> splats;  ///< rows of Projected::splats
+  /// A number for each entry of `splats` such that the entries of splat i have [splat_starts[i],
+  /// splat_starts[i + 1]) in the order of tiles: where a tile leaves what only the sum over a splat's tiles
+  /// gives, without locks and in a fixed order.
+  std::vector<std::uint32_t> slots;
+  std::vector<std::uint32_t> splat_starts;  ///< [splats given + 1]
 
   [[nodiscard]] std::span<const std::uint32_t> tile(int column, int row) const {
     const auto t = static_cast<std::size_t>(row * columns + column);
     return {splats.data() + starts[t], starts[t + 1] - starts[t]};
+  }
+  [[nodiscard]] std::span<const std::uint32_t> tile_slots(int column, int row) const {
+    const auto t = static_cast<std::size_t>(row * columns + column);
+    return {slots.data() + starts[t], starts[t + 1] - starts[t]};
   }
 };
 

@@ -39,10 +39,9 @@ std::array<double, 16> spherical_harmonics(const Eigen::Vector3d& d) {
   return out;
 }
 
-Eigen::Vector3d colour_of(const gaussian::GaussianCloud& cloud, std::size_t row,
-                          const Eigen::Vector3d& direction) {
+Eigen::Vector3d colour_of(const ReferenceCloud& cloud, std::size_t row, const Eigen::Vector3d& direction) {
   const std::array<double, 16> basis = spherical_harmonics(direction);
-  const std::size_t floats = cloud.sh_floats_each();
+  const std::size_t floats = cloud.sh.size() / cloud.size();
   Eigen::Vector3d rgb = Eigen::Vector3d::Constant(0.5);
   for (std::size_t k = 0; k < floats / 3; ++k)
     for (int c = 0; c < 3; ++c)
@@ -50,16 +49,16 @@ Eigen::Vector3d colour_of(const gaussian::GaussianCloud& cloud, std::size_t row,
   return rgb.cwiseMax(0.0);
 }
 
-std::optional<ReferenceSplat> splat_of(const gaussian::GaussianCloud& cloud, std::size_t row,
+std::optional<ReferenceSplat> splat_of(const ReferenceCloud& cloud, std::size_t row,
                                        const geometry::CameraModel& camera,
                                        const geometry::RigidTransform& camera_from_map,
                                        const ReferenceOptions& options) {
-  const Eigen::Vector3d mean = Eigen::Vector3f(&cloud.means_m[3 * row]).cast<double>();
+  const Eigen::Vector3d mean = Eigen::Vector3d(&cloud.means_m[3 * row]);
   const Eigen::Vector3d p = camera_from_map * mean;
   if (p.z() <= options.near_m) return std::nullopt;
-  const float* q = &cloud.quats_xyzw[4 * row];
+  const double* q = &cloud.quats_xyzw[4 * row];
   const Eigen::Matrix3d R = Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized().toRotationMatrix();
-  const Eigen::Vector3d scale = Eigen::Vector3f(&cloud.log_scales[3 * row]).cast<double>().array().exp();
+  const Eigen::Vector3d scale = Eigen::Vector3d(&cloud.log_scales[3 * row]).array().exp();
   const Eigen::Matrix3d sigma = R * scale.cwiseAbs2().asDiagonal() * R.transpose();
   const double x_limit = 1.3 * 0.5 * camera.width_px / camera.fx_px;
   const double y_limit = 1.3 * 0.5 * camera.height_px / camera.fy_px;
@@ -75,7 +74,7 @@ std::optional<ReferenceSplat> splat_of(const gaussian::GaussianCloud& cloud, std
   splat.centre_px = {camera.fx_px * p.x() / p.z() + camera.cx_px,
                      camera.fy_px * p.y() / p.z() + camera.cy_px};
   splat.rgb = colour_of(cloud, row, (mean - camera_from_map.inverse().translation_m).normalized());
-  splat.opacity = 1.0 / (1.0 + std::exp(-static_cast<double>(cloud.opacity_logits[row])));
+  splat.opacity = 1.0 / (1.0 + std::exp(-cloud.opacity_logits[row]));
   splat.depth_m = p.z();
   splat.row = row;
   return splat;
@@ -83,8 +82,15 @@ std::optional<ReferenceSplat> splat_of(const gaussian::GaussianCloud& cloud, std
 
 }  // namespace
 
-std::vector<ReferenceSplat> reference_splats(const gaussian::GaussianCloud& cloud,
-                                             const geometry::CameraModel& camera,
+ReferenceCloud::ReferenceCloud(const gaussian::GaussianCloud& cloud)
+    : sh_degree(cloud.sh_degree),
+      means_m(cloud.means_m.begin(), cloud.means_m.end()),
+      log_scales(cloud.log_scales.begin(), cloud.log_scales.end()),
+      quats_xyzw(cloud.quats_xyzw.begin(), cloud.quats_xyzw.end()),
+      opacity_logits(cloud.opacity_logits.begin(), cloud.opacity_logits.end()),
+      sh(cloud.sh.begin(), cloud.sh.end()) {}
+
+std::vector<ReferenceSplat> reference_splats(const ReferenceCloud& cloud, const geometry::CameraModel& camera,
                                              const geometry::RigidTransform& camera_from_map,
                                              const ReferenceOptions& options) {
   std::vector<ReferenceSplat> splats;
@@ -95,7 +101,7 @@ std::vector<ReferenceSplat> reference_splats(const gaussian::GaussianCloud& clou
   return splats;
 }
 
-ReferencePicture reference_render(const gaussian::GaussianCloud& cloud, const geometry::CameraModel& camera,
+ReferencePicture reference_render(const ReferenceCloud& cloud, const geometry::CameraModel& camera,
                                   const geometry::RigidTransform& camera_from_map,
                                   const ReferenceOptions& options) {
   const auto splats = reference_splats(cloud, camera, camera_from_map, options);

@@ -19,6 +19,14 @@ struct ReferenceOptions {
   Eigen::Vector3d background = Eigen::Vector3d::Zero();
 };
 
+/// A cloud in double precision, so that differences between neighbouring ones can be taken.
+struct ReferenceCloud {
+  ReferenceCloud(const gaussian::GaussianCloud& cloud);
+  int sh_degree;
+  std::vector<double> means_m, log_scales, quats_xyzw, opacity_logits, sh;
+  [[nodiscard]] std::size_t size() const { return opacity_logits.size(); }
+};
+
 /// One Gaussian on the screen.
 struct ReferenceSplat {
   Eigen::Vector2d centre_px;
@@ -37,11 +45,11 @@ struct ReferencePicture {
 
 /// What 3D Gaussian Splatting draws, written down as plainly as can be: double precision, each pixel over all
 /// Gaussians, no tiles, no bounding boxes, no shared code with kernels/splat. Finite clouds only.
-[[nodiscard]] std::vector<ReferenceSplat> reference_splats(const gaussian::GaussianCloud& cloud,
+[[nodiscard]] std::vector<ReferenceSplat> reference_splats(const ReferenceCloud& cloud,
                                                            const geometry::CameraModel& camera,
                                                            const geometry::RigidTransform& camera_from_map,
                                                            const ReferenceOptions& options);
-[[nodiscard]] ReferencePicture reference_render(const gaussian::GaussianCloud& cloud,
+[[nodiscard]] ReferencePicture reference_render(const ReferenceCloud& cloud,
                                                 const geometry::CameraModel& camera,
                                                 const geometry::RigidTransform& camera_from_map,
                                                 const ReferenceOptions& options);

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/train/ssim.hpp"
+
+#include "test/support/random.hpp"
+#include "test/support/reference/ssim_reference.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace edgesplat::train {
+namespace {
+
+struct Pictures {
+  Pictures(std::uint64_t seed, int width, int height, bool weighted) : width_px(width), height_px(height) {
+    test::Random random(seed);
+    const auto pixels = static_cast<std::size_t>(width * height);
+    for (std::size_t i = 0; i < 3 * pixels; ++i) {
+      const double base = 0.5 + 0.4 * std::sin(0.05 * static_cast<double>(i));
+      drawn.push_back(static_cast<float>(base + 0.1 * random.normal()));
+      target.push_back(static_cast<float>(base + 0.1 * random.normal()));
+    }
+    if (!weighted) return;
+    for (std::size_t i = 0; i < pixels; ++i)
+      weight.push_back(i % 7 == 0 ? 0.0F : static_cast<float>(random.uniform()));
+  }
+  [[nodiscard]] ColourPair pair() const { return {width_px, height_px, drawn, target, weight}; }
+  [[nodiscard]] double reference(const std::vector<double>& x) const {
+    const std::vector<double> y(target.begin(), target.end());
+    std::vector<double> w(weight.begin(), weight.end());
+    if (w.empty()) w.assign(drawn.size() / 3, 1.0);
+    return test::reference_ssim(width_px, height_px, x, y, w);
+  }
+  int width_px, height_px;
+  std::vector<float> drawn, target, weight;
+};
+
+struct SsimCase {
+  int width_px, height_px;
+  bool weighted;
+};
+class Ssim : public testing::TestWithParam<SsimCase> {};
+
+TEST_P(Ssim, ValueAgreesWithTheReference) {
+  const auto& c = GetParam();
+  const Pictures p(1, c.width_px, c.height_px, c.weighted);
+  const double expected = p.reference({p.drawn.begin(), p.drawn.end()});
+  EXPECT_NEAR(ssim(p.pair()), expected, 2e-5);
+  std::vector<float> by_drawn(p.drawn.size());
+  EXPECT_NEAR(ssim_backward(p.pair(), 1.0F, by_drawn), expected, 2e-5);
+}
+
+TEST_P(Ssim, GradientAgreesWithDifferences) {
+  const auto& c = GetParam();
+  const Pictures p(2, c.width_px, c.height_px, c.weighted);
+  constexpr float kFactor = 3.0F, kAlreadyThere = 0.25F;
+  std::vector<float> by_drawn(p.drawn.size(), kAlreadyThere);
+  ssim_backward(p.pair(), kFactor, by_drawn);
+  std::vector<double> x(p.drawn.begin(), p.drawn.end());
+  test::Random random(3);
+  const double typical = 1.0 / static_cast<double>(p.drawn.size());
+  for (int n = 0; n < 25; ++n) {
+    // A few at the edges of the picture and of the pieces that it is worked on in, the others anywhere.
+    const std::size_t i = n == 0 ? 0 : (n == 1 ? x.size() - 1 : random.below(x.size()));
+    const double before = x[i];
+    x[i] = before + 1e-4;
+    const double above = p.reference(x);
+    x[i] = before - 1e-4;
+    const double below = p.reference(x);
+    x[i] = before;
+    const double expected = static_cast<double>(kFactor) * (above - below) / 2e-4;
+    EXPECT_NEAR(static_cast<double>(by_drawn[i] - kAlreadyThere), expected,
+                2e-3 * std::abs(expected) + 2e-3 * typical + 1e-7);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Ssim,
+                         testing::Values(SsimCase{1, 1, false}, SsimCase{7, 4, false},
+                                         SsimCase{40, 30, false}, SsimCase{40, 30, true},
+                                         SsimCase{137, 70, false}, SsimCase{131, 66, true}));
+
+TEST(SsimValue, OfAPictureWithItselfIsOne) {
+  Pictures p(4, 50, 40, false);
+  p.target = p.drawn;
+  EXPECT_NEAR(ssim(p.pair()), 1.0, 1e-6);
+}
+
+TEST(SsimValue, WhatDoesNotCountChangesNothing) {
+  Pictures p(5, 50, 40, true);
+  const double before = ssim(p.pair());
+  for (std::size_t i = 0; i < p.weight.size(); ++i)
+    if (p.weight[i] == 0.0F) std::fill_n(&p.drawn[3 * i], 3, 9.0F);
+  EXPECT_EQ(ssim(p.pair()), before);
+  std::fill(p.weight.begin(), p.weight.end(), 0.0F);
+  EXPECT_EQ(ssim(p.pair()), 0.0) << "nothing counts";
+}
+
+TEST(SsimValue, IsTheSameForEveryNumberOfThreads) {
+  const Pictures p(6, 300, 200, false);
+  const auto with_threads = [&p](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    std::vector<float> by_drawn(p.drawn.size());
+    return std::pair(ssim_backward(p.pair(), 1.0F, by_drawn), by_drawn);
+  };
+  EXPECT_EQ(with_threads(1), with_threads(2));
+}
+
+}  // namespace
+}  // namespace edgesplat::train
