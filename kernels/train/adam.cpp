@@ -78,15 +78,19 @@ void fill_rates(const LearningRates& rates, int sh_degree, float* out) {
   std::fill_n(out + ParameterRow::kSh, 3, rates.sh_base);
 }
 
-/// Entry t is right for the t-th step, entry 0 unused. Both go to 1 and stay there.
-std::vector<std::array<float, 2>> correction_table(const AdamOptions& options) {
-  std::vector<std::array<float, 2>> table{{1.0F, 1.0F}};
-  double power1 = 1.0, power2 = 1.0;
-  while (table.size() < kMostSteps && (power1 > 1e-8 || power2 > 1e-8)) {
+/// Entry t is right for the t-th step, entry 0 unused. All settle and stay.
+std::vector<std::array<float, 3>> steps_table(const AdamOptions& options) {
+  std::vector<std::array<float, 3>> table{{1.0F, 1.0F, 1.0F}};
+  const auto final_share = static_cast<double>(options.mean_final_share);
+  double power1 = 1.0, power2 = 1.0, decay = 1.0;
+  while (table.size() < kMostSteps) {
     power1 *= static_cast<double>(options.beta1);
     power2 *= static_cast<double>(options.beta2);
-    table.push_back(
-        {static_cast<float>(1.0 / (1.0 - power1)), static_cast<float>(1.0 / std::sqrt(1.0 - power2))});
+    table.push_back({static_cast<float>(1.0 / (1.0 - power1)),
+                     static_cast<float>(1.0 / std::sqrt(1.0 - power2)),
+                     static_cast<float>(final_share + (1.0 - final_share) * decay)});
+    decay *= std::exp(-1.0 / static_cast<double>(options.mean_decay_steps));
+    if (power1 < 1e-8 && power2 < 1e-8 && decay < 1e-8) break;
   }
   return table;
 }
@@ -97,7 +101,7 @@ Adam::Adam(int sh_degree, const AdamOptions& options)
     : sh_degree_(sh_degree),
       options_(options),
       stride_(ParameterRow::stride(sh_degree)),
-      correction_(correction_table(options)) {}
+      by_steps_(steps_table(options)) {}
 
 void Adam::resize(std::size_t rows) {
   first_.resize(rows * stride_, 0.0F);
@@ -133,13 +137,16 @@ void Adam::step(const GaussianGradients& gradients, const LearningRates& rates, 
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     const std::size_t last = std::min(gradients.rows.size(), (b + 1) * kBlock);
     float values[ParameterRow::kMaxStride] = {};
+    float row_rates[ParameterRow::kMaxStride];
+    std::copy_n(rate_row, ParameterRow::kMaxStride, row_rates);
     for (std::size_t i = b * kBlock; i < last; ++i) {
       const std::size_t row = gradients.rows[i];
       if (steps_[row] < kMostSteps) ++steps_[row];
-      const auto& correction = correction_[std::min<std::size_t>(steps_[row], correction_.size() - 1)];
+      const auto& at_step = by_steps_[std::min<std::size_t>(steps_[row], by_steps_.size() - 1)];
+      std::fill_n(row_rates + ParameterRow::kMean, 3, rates.mean_m * at_step[2]);
       load_row(cloud, row, values);
-      step_row({gradients.row(i).data(), rate_row, &first_[row * stride_], &second_[row * stride_], values,
-                stride_, options_.beta1, options_.beta2, options_.epsilon, correction[0], correction[1]});
+      step_row({gradients.row(i).data(), row_rates, &first_[row * stride_], &second_[row * stride_], values,
+                stride_, options_.beta1, options_.beta2, options_.epsilon, at_step[0], at_step[1]});
       if (splat::all_finite(values, used)) store_row(values, row, cloud);
     }
   });

@@ -27,6 +27,10 @@ struct AdamOptions {
   float beta1 = 0.9F;
   float beta2 = 0.999F;
   float epsilon = 1e-15F;
+  /// A mean's rate falls exponentially with the steps of its Gaussian, to this share of it, so that surfaces
+  /// come to rest while new Gaussians still find their place.
+  float mean_final_share = 0.05F;   ///< 0..1
+  float mean_decay_steps = 600.0F;  ///< after which 1/e of what falls is left, 1..1e6
 };
 
 /// Adam (Kingma 2015) over the Gaussians that a picture shows, the others being left untouched. Every
@@ -57,7 +61,8 @@ class Adam {
   std::vector<float> first_;   ///< [N,stride] mean of the gradient
   std::vector<float> second_;  ///< [N,stride] mean of its square
   std::vector<std::uint16_t> steps_;
-  std::vector<std::array<float, 2>> correction_;  ///< by steps: 1 / (1 - beta1^t), 1 / sqrt(1 - beta2^t)
+  /// By steps: 1 / (1 - beta1^t), 1 / sqrt(1 - beta2^t), share of the mean's rate.
+  std::vector<std::array<float, 3>> by_steps_;
 };
 
 }  // namespace edgesplat::train

@@ -26,7 +26,7 @@ GaussianGradients gradients_for(const gaussian::GaussianCloud& cloud, std::vecto
 TEST(Adam, FollowsTheFormula) {
   test::Random random(1);
   auto cloud = test::random_cloud(random, {.count = 3, .sh_degree = 1});
-  Adam adam(1, {});
+  Adam adam(1, {.mean_final_share = 1.0F});
   adam.resize(3);
   const LearningRates rates{.mean_m = 0.01F,
                             .log_scale = 0.02F,
@@ -66,6 +66,19 @@ TEST(Adam, ARowsFirstStepIsItsRateWheneverItComes) {
   const float before = cloud.means_m[3];
   adam.step(gradients_for(cloud, {1}, 1e-4F), rates, cloud);
   EXPECT_NEAR(cloud.means_m[3] - before, -0.01F, 1e-6F);
+}
+
+TEST(Adam, AMeansRateFallsWithTheStepsOfItsGaussian) {
+  test::Random random(6);
+  auto cloud = test::random_cloud(random, {.count = 1});
+  Adam adam(0, {.mean_final_share = 0.1F, .mean_decay_steps = 10.0F});
+  adam.resize(1);
+  float before = 0.0F;
+  for (int t = 0; t < 101; ++t) {
+    before = cloud.means_m[0];
+    adam.step(gradients_for(cloud, {0}, 1.0F), {.mean_m = 0.01F}, cloud);
+  }
+  EXPECT_NEAR(before - cloud.means_m[0], 0.001F, 1e-5F);
 }
 
 TEST(Adam, KeepsQuaternionsOfUnitLength) {

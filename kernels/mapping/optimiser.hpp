@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/gaussian/gaussian_cloud.hpp"
+#include "common/time/clock.hpp"
+#include "kernels/mapping/optimiser_options.hpp"
+#include "kernels/mapping/row_changes.hpp"
+#include "kernels/mapping/row_statistics.hpp"
+#include "kernels/mapping/training_view.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace edgesplat::mapping {
+
+struct StepTimes {
+  std::chrono::nanoseconds forward{}, loss{}, backward{}, update{};
+  [[nodiscard]] std::chrono::nanoseconds total() const { return forward + loss + backward + update; }
+};
+
+struct StepReport {
+  double loss = 0.0;        ///< what the step went down, before it
+  double l1 = 0.0;          ///< mean absolute difference of the colours
+  double depth_m = 0.0;     ///< mean absolute difference of the depths, 0 without
+  std::size_t visible = 0;  ///< Gaussians that the picture shows: those that moved
+  /// dL by the camera's pose: dr, dt with camera_from_map ⊞ (dr, dt) = (rotation Exp(dr), translation + dt)
+  std::array<double, 6> by_pose{};
+  StepTimes times;
+};
+
+/// Fits the map's Gaussians to pictures, one picture a step: draw, compare, go back, move (3DGS, Kerbl 2023).
+/// Owns the Gaussians. Starts no thread of its own (TBB within a step), does no I/O, keeps no picture. The
+/// caller bounds the time by calling step() until its deadline. Deterministic: the same calls give the same
+/// map whatever the number of threads. Single-owner.
+class Optimiser {
+ public:
+  /// kInvalidConfig for options out of range. `clock` must outlive the optimiser; it only times the steps.
+  static Result<Optimiser> create(const OptimiserOptions& options, const Clock& clock);
+
+  [[nodiscard]] const gaussian::GaussianCloud& cloud() const { return cloud_; }
+  /// Appends rows (a lower SH degree is padded with zeros) as far as the budget goes, and returns how many;
+  /// the rest is refused and counted. kInvalidArgument, and nothing added, for arrays of different lengths or
+  /// a higher SH degree.
+  Result<std::size_t> add_rows(const gaussian::GaussianCloud& rows);
+  /// Removes rows given in any order, once each; the others keep their order. kInvalidArgument, and nothing
+  /// removed, for a row that does not exist.
+  Status remove_rows(std::span<const std::uint32_t> rows);
+  /// Marks rows as changed and gives the cloud for setting their values (a correction of anchors): lengths
+  /// and ids must stay.
+  gaussian::GaussianCloud& edit_rows(std::span<const std::uint32_t> rows);
+
+  /// One step of all Gaussians that the view shows. kInvalidArgument for arrays that do not fit the view.
+  Result<StepReport> step(const TrainingView& view);
+
+  /// Rows that changed after the mark was taken: new, moved by a step or edited. Ascending. What was removed,
+  /// the caller knows, having asked for it.
+  [[nodiscard]] std::vector<std::uint32_t> changed_since(ChangeMark mark) const {
+    return changes_.since(mark);
+  }
+  [[nodiscard]] ChangeMark mark() const { return changes_.mark(); }
+
+  [[nodiscard]] std::span<const RowStatistics> statistics() const { return statistics_; }
+  [[nodiscard]] ExposureTable& exposures() { return exposures_; }
+  [[nodiscard]] const OptimiserOptions& options() const { return options_; }
+  /// Room for so many more rows in the budget.
+  [[nodiscard]] std::size_t room() const;
+  [[nodiscard]] std::uint64_t rows_refused() const { return rows_refused_; }
+  /// Parameters, moments and statistics of one Gaussian.
+  [[nodiscard]] std::size_t bytes_per_row() const;
+
+ private:
+  friend class Densifier;
+  Optimiser(const OptimiserOptions& options, const Clock& clock);
+
+  struct Pictures {
+    std::vector<float> colour, depth_sum_m, alpha, seen;
+    std::vector<float> by_colour, by_depth_sum, by_alpha;
+  };
+  void size_pictures(const TrainingView& view);
+  void compare(const TrainingView& view, StepReport& report);
+  void regularise(train::GaussianGradients& gradients, StepReport& report) const;
+  void update(const train::GaussianGradients& gradients, float half_width_px);
+  void keep_rows(std::span<const std::uint32_t> rows);
+
+  OptimiserOptions options_;
+  const Clock* clock_;
+  gaussian::GaussianCloud cloud_;
+  train::Adam adam_;
+  ExposureTable exposures_;
+  RowChanges changes_;
+  std::vector<RowStatistics> statistics_;
+  Pictures pictures_;
+  std::uint64_t rows_refused_ = 0;
+};
+
+}  // namespace edgesplat::mapping
