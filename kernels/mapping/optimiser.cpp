@@ -122,6 +122,14 @@ GaussianCloud& Optimiser::edit_rows(std::span<const std::uint32_t> rows) {
   return cloud_;
 }
 
+void Optimiser::forget_moments(std::span<const std::uint32_t> rows) {
+  for (const std::uint32_t row : rows) adam_.reset_row(row);
+}
+
+void Optimiser::reset_statistics() {
+  std::fill(statistics_.begin(), statistics_.end(), RowStatistics{});
+}
+
 void Optimiser::size_pictures(const TrainingView& view) {
   const std::size_t pixels = view.colour.size() / 3;
   pictures_.colour.resize(3 * pixels);

@@ -54,6 +54,9 @@ class Optimiser {
   /// and ids must stay.
   gaussian::GaussianCloud& edit_rows(std::span<const std::uint32_t> rows);
 
+  /// Rows whose values were set start afresh in Adam.
+  void forget_moments(std::span<const std::uint32_t> rows);
+
   /// One step of all Gaussians that the view shows. kInvalidArgument for arrays that do not fit the view.
   Result<StepReport> step(const TrainingView& view);
 
@@ -64,7 +67,9 @@ class Optimiser {
   }
   [[nodiscard]] ChangeMark mark() const { return changes_.mark(); }
 
+  /// What the pictures said about each row since reset_statistics().
   [[nodiscard]] std::span<const RowStatistics> statistics() const { return statistics_; }
+  void reset_statistics();
   [[nodiscard]] ExposureTable& exposures() { return exposures_; }
   [[nodiscard]] const OptimiserOptions& options() const { return options_; }
   /// Room for so many more rows in the budget.
@@ -74,7 +79,6 @@ class Optimiser {
   [[nodiscard]] std::size_t bytes_per_row() const;
 
  private:
-  friend class Densifier;
   Optimiser(const OptimiserOptions& options, const Clock& clock);
 
   struct Pictures {

@@ -82,6 +82,7 @@ EDGESPLAT_INLINE void blend_tile_inline(std::span<const Splat> splats, std::span
   const auto y0 = static_cast<float>(row * kTilePx);
   clear(tile);
   for (std::size_t i = 0; i < list.size(); ++i) {
+    if (i + kPrefetchAhead < list.size()) prefetch(splats[list[i + kPrefetchAhead]]);
     const Splat& s = splats[list[i]];
     const TileRows rows = rows_reached(s, y0);
     for (int y = rows.first; y <= rows.last; ++y)

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace edgesplat::splat {
 
@@ -30,6 +31,13 @@ struct RowOfSplat {
 [[gnu::always_inline]] inline float blended_alpha(float raw) {
   const float cut = std::min(raw, kMaxAlpha);
   return cut < kMinAlpha ? 0.0F : cut;
+}
+
+/// A tile's splats lie all over memory: asked for this many ahead, they are there in time.
+inline constexpr std::size_t kPrefetchAhead = 6;
+[[gnu::always_inline]] inline void prefetch(const Splat& s) {
+  __builtin_prefetch(&s);
+  __builtin_prefetch(&s.gaussian);  // it may lie across two lines
 }
 
 struct TileRows {

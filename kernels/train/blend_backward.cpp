@@ -109,6 +109,11 @@ struct TileTask {
 EDGESPLAT_INLINE void reverse_tile_inline(const TileTask& task, Tile& tile) {
   constexpr std::size_t kCheckEvery = 16;
   for (std::size_t i = 0; i < task.list.size(); ++i) {
+    if (i + splat::kPrefetchAhead < task.list.size()) {
+      splat::prefetch(task.splats[task.list[i + splat::kPrefetchAhead]]);
+      __builtin_prefetch(&task.moments[task.slots[i + splat::kPrefetchAhead]], 1);
+      __builtin_prefetch(&task.moments[task.slots[i + splat::kPrefetchAhead]].weight, 1);
+    }
     const Splat& s = task.splats[task.list[i]];
     const splat::TileRows rows = splat::rows_reached(s, task.y0_px);
     ColumnSums sums = {};
