@@ -4,6 +4,8 @@
 
 #include "common/base/bytes.hpp"
 #include "common/io/atomic_file.hpp"
+#include "common/io/gaussian_values.hpp"
+#include "common/io/ply_compressed.hpp"
 #include "common/io/ply_table.hpp"
 
 #include <array>
@@ -48,17 +50,6 @@ void append_row(const GaussianCloud& cloud, std::size_t row, std::vector<float>&
              {cloud.opacity_logits[row], scale[0], scale[1], scale[2], quat[3], quat[0], quat[1], quat[2]});
 }
 
-/// Number of f_rest_* columns, which gives the degree; an error for a number that fits none.
-Result<int> find_degree(const ply::Table& table) {
-  std::size_t count = 0;
-  while (table.find("f_rest_" + std::to_string(count))) ++count;
-  for (int degree = 0; degree <= 3; ++degree) {
-    if (count == static_cast<std::size_t>((degree + 1) * (degree + 1) - 1) * 3) return degree;
-  }
-  return fail(Errc::kCorrupt,
-              "a PLY file with " + std::to_string(count) + " f_rest columns: expected 0, 9, 24 or 45");
-}
-
 Status fill_row(std::span<const float> values, std::size_t row, GaussianCloud& cloud) {
   for (const float value : values) {
     if (!std::isfinite(value))
@@ -89,9 +80,18 @@ Status fill_row(std::span<const float> values, std::size_t row, GaussianCloud& c
 
 }  // namespace
 
+Result<int> ply::degree_of_rest_columns(const Table& table) {
+  std::size_t count = 0;
+  while (table.find("f_rest_" + std::to_string(count))) ++count;
+  for (int degree = 0; degree <= 3; ++degree) {
+    if (count == static_cast<std::size_t>((degree + 1) * (degree + 1) - 1) * 3) return degree;
+  }
+  return fail(Errc::kCorrupt,
+              "a PLY file with " + std::to_string(count) + " f_rest columns: expected 0, 9, 24 or 45");
+}
+
 Status write_gaussians_ply(const std::filesystem::path& path, const GaussianCloud& cloud) {
-  if (!cloud.consistent())
-    return fail(Errc::kInvalidArgument, "a Gaussian cloud with arrays of different lengths");
+  EDGESPLAT_TRY_STATUS(check_writable(cloud));
   EDGESPLAT_TRY(AtomicFile file, AtomicFile::create(path));
   const std::string header = make_header(cloud);
   EDGESPLAT_TRY_STATUS(file.append(std::as_bytes(std::span(header.data(), header.size()))));
@@ -107,8 +107,10 @@ Status write_gaussians_ply(const std::filesystem::path& path, const GaussianClou
 }
 
 Result<GaussianCloud> parse_gaussians_ply(std::span<const std::byte> bytes) {
-  EDGESPLAT_TRY(const auto table, ply::open_table(bytes));
-  EDGESPLAT_TRY(const int degree, find_degree(table));
+  EDGESPLAT_TRY(const auto file, ply::open_file(bytes));
+  if (ply::is_compressed(file)) return ply::parse_compressed(file);
+  EDGESPLAT_TRY(const auto table, ply::find_table(file, "vertex"));
+  EDGESPLAT_TRY(const int degree, ply::degree_of_rest_columns(table));
   GaussianCloud cloud;
   cloud.sh_degree = degree;
   std::vector<std::size_t> columns;

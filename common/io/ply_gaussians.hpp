@@ -16,9 +16,9 @@ namespace edgesplat::io {
 [[nodiscard]] Status write_gaussians_ply(const std::filesystem::path& path,
                                          const gaussian::GaussianCloud& cloud);
 
-/// Properties in any order, extra ones ignored, f_rest_* absent or for degree 1, 2 or 3; binary little-endian
-/// or ASCII. Ids are numbered from 0 with origin 0, rotations normalised. kCorrupt names what is missing, or
-/// the first row that is not finite or has a zero rotation.
+/// Properties in any order, extra ones ignored, f_rest_* absent or for degree 1, 2 or 3; binary of either
+/// byte order or ASCII; also PlayCanvas' compressed PLY. Ids are numbered from 0 with origin 0, rotations
+/// normalised. kCorrupt names what is missing, or the first row that is not finite or has a zero rotation.
 [[nodiscard]] Result<gaussian::GaussianCloud> read_gaussians_ply(const std::filesystem::path& path);
 [[nodiscard]] Result<gaussian::GaussianCloud> parse_gaussians_ply(std::span<const std::byte> bytes);
 

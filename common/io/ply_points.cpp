@@ -62,7 +62,7 @@ Status write_points_ply(const std::filesystem::path& path, const PointCloud& clo
 }
 
 Result<PointCloud> parse_points_ply(std::span<const std::byte> bytes) {
-  EDGESPLAT_TRY(const auto table, ply::open_table(bytes));
+  EDGESPLAT_TRY(const auto table, ply::open_vertices(bytes));
   std::vector<std::size_t> columns;
   if (!add_columns(table, {"x", "y", "z"}, columns))
     return fail(Errc::kCorrupt, "the PLY file has no x, y, z");

@@ -23,8 +23,7 @@ struct PointCloud {
 
 /// Binary little-endian: float x y z, uchar red green blue. kInvalidArgument where the lengths differ.
 [[nodiscard]] Status write_points_ply(const std::filesystem::path& path, const PointCloud& cloud);
-/// Any number type for x y z, red green blue optional, extra properties ignored; binary little-endian or
-/// ASCII.
+/// Any number type for x y z, red green blue optional, extra properties ignored; binary or ASCII.
 [[nodiscard]] Result<PointCloud> read_points_ply(const std::filesystem::path& path);
 [[nodiscard]] Result<PointCloud> parse_points_ply(std::span<const std::byte> bytes);
 

@@ -3,12 +3,14 @@
 #include "common/io/atomic_file.hpp"
 #include "common/io/ply_gaussians.hpp"
 #include "common/io/ply_points.hpp"
+#include "test/common/io/gaussian_samples.hpp"
 #include "test/support/temp_dir.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
+#include <limits>
 #include <random>
 
 namespace edgesplat::io {
@@ -19,25 +21,6 @@ using ::testing::HasSubstr;
 
 std::span<const std::byte> as_bytes(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
-}
-
-GaussianCloud make_cloud(std::size_t count, int degree) {
-  std::mt19937 random(4);
-  std::normal_distribution<float> normal;
-  GaussianCloud cloud;
-  cloud.sh_degree = degree;
-  cloud.resize(count);
-  for (auto* values :
-       {&cloud.means_m, &cloud.log_scales, &cloud.quats_xyzw, &cloud.opacity_logits, &cloud.sh}) {
-    for (float& value : *values) value = normal(random);
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    float* q = &cloud.quats_xyzw[i * 4];
-    const float norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    for (int k = 0; k < 4; ++k) q[k] /= norm;
-    cloud.ids[i] = gaussian::GaussianId(3, i + 100);
-  }
-  return cloud;
 }
 
 class GaussiansPly : public ::testing::TestWithParam<int> {};
@@ -110,15 +93,36 @@ TEST(GaussiansPlyLayout, SaysWhatIsWrong) {
   EXPECT_THAT(context(good, " 0.5 ", " half "), HasSubstr("vertex 0 is not made of numbers"));
   EXPECT_THAT(context(good, "vertex 1", "vertex 99999999999999999"), HasSubstr("truncated"));
   EXPECT_THAT(context(good, "vertex 1", "vertex -1"), HasSubstr("not a number"));
-  EXPECT_THAT(context(good, "format ascii", "format binary_big_endian"), HasSubstr("big-endian"));
   EXPECT_THAT(context(good, "end_header", "end_heading"), HasSubstr("unknown line"));
   EXPECT_THAT(context(good, "uchar extra", "list uchar int extra"), HasSubstr("lists"));
   EXPECT_THAT(context(good, "ply\n", "plx\n"), HasSubstr("not a PLY file"));
 }
 
-TEST(GaussiansPlyLayout, RefusesAnInconsistentCloud) {
+TEST(GaussiansPlyLayout, AcceptsBigEndian) {
+  const test::TempDir folder;
+  const auto cloud = make_cloud(5, 1);
+  ASSERT_TRUE(write_gaussians_ply(folder / "g.ply", cloud));
+  auto bytes = read_file(folder / "g.ply", 1U << 20U).value();
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto body = text.find("end_header\n") + 11;
+  for (std::size_t i = body; i + 4 <= bytes.size(); i += 4) std::reverse(&bytes[i], &bytes[i] + 4);
+  std::string big = text.substr(0, body);
+  big.replace(big.find("little"), 6, "big");
+  std::vector<std::byte> turned(reinterpret_cast<const std::byte*>(big.data()),
+                                reinterpret_cast<const std::byte*>(big.data()) + big.size());
+  turned.insert(turned.end(), bytes.begin() + static_cast<std::ptrdiff_t>(body), bytes.end());
+  const auto read = parse_gaussians_ply(turned);
+  ASSERT_TRUE(read) << read.error().context;
+  EXPECT_EQ(read->means_m, cloud.means_m);
+  EXPECT_EQ(read->sh, cloud.sh);
+}
+
+TEST(GaussiansPlyLayout, RefusesWhatNoReaderWouldTake) {
   const test::TempDir folder;
   auto cloud = make_cloud(2, 0);
+  cloud.opacity_logits[1] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(write_gaussians_ply(folder / "g.ply", cloud).error().context, HasSubstr("Gaussian 1 is not"));
+  cloud = make_cloud(2, 0);
   cloud.sh.pop_back();
   EXPECT_EQ(write_gaussians_ply(folder / "g.ply", cloud).error().code, Errc::kInvalidArgument);
   EXPECT_FALSE(std::filesystem::exists(folder / "g.ply"));
