@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/io/camera_set.hpp"
+#include "common/io/json_fields.hpp"
+
+#include <Eigen/Core>
+
+/// What the two forms of camera sets have in common. Inside common/io only.
+namespace edgesplat::io {
+
+using PoseRows = Eigen::Matrix<double, 3, 4>;
+
+/// 3 or 4 rows of 4 numbers whose left part is a rotation, but for a common scale.
+[[nodiscard]] Result<PoseRows> pose_rows(const json::Json& object, std::string_view key);
+/// 0..16384; 0 where the key is absent.
+[[nodiscard]] Result<int> size_px(const json::Json& object, std::string_view key);
+
+[[nodiscard]] Result<CameraSet> parse_nerf_transforms(const json::Json& file);
+
+}  // namespace edgesplat::io
