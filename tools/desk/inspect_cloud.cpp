@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
-#include "common/io/ply_gaussians.hpp"
+#include "common/io/gaussian_file.hpp"
 #include "common/io/ply_points.hpp"
 #include "tools/desk/inspection.hpp"
 
@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -18,10 +19,12 @@ namespace {
 constexpr std::size_t kHeaderBytes = 8192;
 
 bool holds_gaussians(const std::filesystem::path& path) {
+  if (path.extension() != ".ply") return true;
   std::ifstream file(path, std::ios::binary);
   std::string header(kHeaderBytes, '\0');
   file.read(header.data(), static_cast<std::streamsize>(header.size()));
-  return header.substr(0, header.find("end_header")).find("f_dc_0") != std::string::npos;
+  header.resize(std::min(header.find("end_header"), header.size()));
+  return header.find("f_dc_0") != std::string::npos || header.find("packed_position") != std::string::npos;
 }
 
 nlohmann::json vector_json(const Eigen::Vector3f& v) {
@@ -55,7 +58,7 @@ Result<Inspection> inspect_points(const std::filesystem::path& path) {
 }
 
 Result<Inspection> inspect_gaussians(const std::filesystem::path& path) {
-  EDGESPLAT_TRY(const gaussian::GaussianCloud cloud, io::read_gaussians_ply(path));
+  EDGESPLAT_TRY(const gaussian::GaussianCloud cloud, io::read_gaussians(path));
   Eigen::AlignedBox3f box;
   double opacity_sum = 0.0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -7,10 +7,11 @@ namespace edgesplat::desk {
 Result<Inspection> inspect_file(const std::filesystem::path& path) {
   const std::string ending = path.extension().string();
   if (ending == ".mcap") return inspect_recording(path);
-  if (ending == ".ply") return inspect_cloud(path);
+  if (ending == ".ply" || ending == ".spz" || ending == ".splat") return inspect_cloud(path);
   if (ending == ".tum" || ending == ".txt") return inspect_trajectory(path);
-  return fail(Errc::kInvalidArgument, "cannot tell what " + path.string() +
-                                          " is: expected a name ending in .mcap, .ply, .tum or .txt");
+  return fail(Errc::kInvalidArgument,
+              "cannot tell what " + path.string() +
+                  " is: expected a name ending in .mcap, .ply, .spz, .splat, .tum or .txt");
 }
 
 }  // namespace edgesplat::desk

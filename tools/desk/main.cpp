@@ -20,9 +20,11 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 done, 1 failed, 2 usage or configuration. `edgesplat VERB --help` explains a verb.");
   desk::VerbContext context;
+  desk::add_convert_verb(app, context);
   desk::add_evaluate_verb(app, context);
   desk::add_inspect_verb(app, context);
   desk::add_odometry_verb(app, context);
+  desk::add_render_verb(app, context);
   desk::add_replay_verb(app, context);
   desk::add_report_verb(app, context);
   desk::add_simulate_verb(app, context);

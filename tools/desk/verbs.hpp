@@ -19,9 +19,11 @@ struct VerbContext {
 };
 
 // One verb each, in <verb>_verb.cpp: adds its subcommand with options to `app`. The context outlives parsing.
+void add_convert_verb(CLI::App& app, VerbContext& context);
 void add_evaluate_verb(CLI::App& app, VerbContext& context);
 void add_inspect_verb(CLI::App& app, VerbContext& context);
 void add_odometry_verb(CLI::App& app, VerbContext& context);
+void add_render_verb(CLI::App& app, VerbContext& context);
 void add_replay_verb(CLI::App& app, VerbContext& context);
 void add_report_verb(CLI::App& app, VerbContext& context);
 void add_simulate_verb(CLI::App& app, VerbContext& context);
