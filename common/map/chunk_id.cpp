@@ -18,6 +18,12 @@ bool within_slack(std::int32_t current, float coordinate_m) {
 
 }  // namespace
 
+bool chunk_in_map(const ChunkId& chunk) {
+  constexpr auto kMaxCell = static_cast<std::int32_t>(kMapLimit_m / kChunkEdge_m) + 1;
+  const auto inside = [](std::int32_t cell) { return cell >= -kMaxCell && cell <= kMaxCell; };
+  return inside(chunk.x) && inside(chunk.y) && inside(chunk.z);
+}
+
 ChunkId chunk_of(const Eigen::Vector3f& p_in_map_m) {
   return {cell(p_in_map_m.x()), cell(p_in_map_m.y()), cell(p_in_map_m.z())};
 }

@@ -25,6 +25,8 @@ struct ChunkId {
   auto operator<=>(const ChunkId&) const = default;
 };
 
+/// True where a chunk can hold means within kMapLimit_m.
+[[nodiscard]] bool chunk_in_map(const ChunkId& chunk);
 /// The cube a point lies in. The point must be finite and within kMapLimit_m.
 [[nodiscard]] ChunkId chunk_of(const Eigen::Vector3f& p_in_map_m);
 /// Where a Gaussian of chunk `current` belongs after its mean moved: `current` up to kChunkSlack_m outside.

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/gaussian/gaussian_cloud.hpp"
-#include "common/map/chunk_id.hpp"
+#include "common/geometry/rigid_transform.hpp"
 #include "common/map/ids.hpp"
+#include "common/map/quantised.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace edgesplat::map {
@@ -32,17 +33,63 @@ struct DeltaHeader {
   MapUuid map;
   Epoch epoch;
   std::uint64_t seq = 0;       ///< 1, 2, 3... within an epoch
-  std::uint64_t base_seq = 0;  ///< must have been applied before this one; 0: builds on an empty map
+  std::uint64_t base_seq = 0;  ///< must have been applied before this one; 0: begins with an empty map
   DeltaKind kind = DeltaKind::kAdd;
   std::uint32_t count = 0;         ///< records in the body
   std::uint32_t length_bytes = 0;  ///< of the body
 };
 
-/// New Gaussians with the chunk each is born in.
-struct AddDelta {
-  DeltaHeader header;  ///< kind kAdd, count = gaussians.size()
-  gaussian::GaussianCloud gaussians;
-  std::vector<ChunkId> chunks;  ///< [N]
+/// Whole Gaussians. One whose id is known already has changed its chunk: the record takes the old one's
+/// place.
+struct AddBody {
+  QuantisedRows rows;
+};
+
+/// What known Gaussians change by: differences of the integers modulo their width; unnamed fields are 0.
+/// Anchors are the new ones. `differences.chunks` is not used. Ids the map does not hold are passed over.
+struct UpdateBody {
+  FieldMask fields = 0;
+  QuantisedRows differences;
+};
+
+struct RemoveBody {
+  std::vector<gaussian::GaussianId> ids;  ///< those the map does not hold are passed over
+};
+
+/// All of one chunk at one level of detail (0 is the finest): whatever it held before is gone.
+struct ChunkReplaceBody {
+  ChunkId chunk;
+  std::uint8_t level = 0;
+  bool dropped = false;  ///< the robot gave this chunk up: no rows, and nothing of it is sent until it asks
+  bool more = false;     ///< parts of a snapshot wait for the robot to ask for them
+  QuantisedRows rows;    ///< all of `chunk`
+};
+
+/// A keyframe's corrected pose: what is anchored to it with an older pose version moves by new * old^-1.
+struct PoseCorrection {
+  std::uint32_t keyframe = 0;
+  std::uint32_t version = 0;  ///< of the new pose
+  geometry::RigidTransform old_map_from_body;
+  geometry::RigidTransform new_map_from_body;
+};
+struct ReposeBody {
+  std::vector<PoseCorrection> corrections;
+};
+
+/// Where things move in a keyframe's picture; only the highest version counts.
+struct MaskBody {
+  std::uint32_t keyframe = 0;
+  std::uint32_t version = 0;
+  std::uint16_t width_px = 0;
+  std::uint16_t height_px = 0;
+  std::vector<std::uint8_t> dynamic;  ///< [H,W] 0 static .. 255 surely moving
+};
+
+struct Delta {
+  DeltaHeader header;  ///< kind, count and length are filled in by the encoder
+  std::variant<AddBody, UpdateBody, RemoveBody, ChunkReplaceBody, ReposeBody, MaskBody> body;
+
+  [[nodiscard]] DeltaKind kind() const { return static_cast<DeltaKind>(body.index() + 1); }
 };
 
 }  // namespace edgesplat::map

@@ -7,33 +7,27 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include <algorithm>
 #include <array>
-#include <vector>
+#include <cstring>
 
 namespace edgesplat::map {
 namespace {
 
-constexpr std::uint64_t kFieldSet = 1;  // version of what a digest covers; change it with the record
+constexpr std::uint64_t kFieldSet = 2;  // version of what a digest covers; change it with the record
 
 }  // namespace
 
-std::uint64_t record_digest(const gaussian::GaussianCloud& cloud, std::size_t row) {
-  // id, anchor, then mean 3, log scale 3, quaternion 4, opacity 1 and up to 48 SH coefficients.
-  std::array<float, 11 + 48> floats{};
-  const std::size_t sh_floats = cloud.sh_floats_each();
-  float* to = floats.data();
-  to = std::copy_n(cloud.means_m.data() + 3 * row, 3, to);
-  to = std::copy_n(cloud.log_scales.data() + 3 * row, 3, to);
-  to = std::copy_n(cloud.quats_xyzw.data() + 4 * row, 4, to);
-  *to++ = cloud.opacity_logits[row];
-  to = std::copy_n(cloud.sh.data() + sh_floats * row, sh_floats, to);
-  const auto& anchor = cloud.anchors[row];
+std::uint64_t record_digest(const QuantisedRows& rows, std::size_t row) {
+  constexpr std::size_t kMaxShRest = 45;
+  std::array<std::byte, sizeof(Channels) + kMaxShRest> record{};
+  const std::size_t sh_rest = rows.sh_rest_each();
+  std::memcpy(record.data(), rows.channels[row].data(), sizeof(Channels));
+  if (sh_rest > 0)
+    std::memcpy(record.data() + sizeof(Channels), rows.sh_rest.data() + sh_rest * row, sh_rest);
+  const auto& anchor = rows.anchors[row];
   const std::uint64_t anchored = (static_cast<std::uint64_t>(anchor.keyframe) << 32U) | anchor.pose_version;
-  const std::uint64_t seed =
-      cloud.ids[row].packed() ^ (anchored * 0x9E3779B97F4A7C15ULL) ^ (kFieldSet << 56U);
-  return XXH3_64bits_withSeed(floats.data(), sizeof(float) * static_cast<std::size_t>(to - floats.data()),
-                              seed);
+  const std::uint64_t seed = rows.ids[row].packed() ^ (anchored * 0x9E3779B97F4A7C15ULL) ^ (kFieldSet << 56U);
+  return XXH3_64bits_withSeed(record.data(), sizeof(Channels) + sh_rest, seed);
 }
 
 void MapHash::add(const ChunkId& chunk, std::uint64_t record_digest) {
@@ -54,6 +48,13 @@ std::uint64_t MapHash::chunk_value(const ChunkId& chunk) const {
   if (found == chunks_.end()) return 0;
   const std::array<std::uint64_t, 2> words = {found->second.count, found->second.digests};
   return XXH3_64bits(words.data(), sizeof(words));
+}
+
+std::vector<std::pair<ChunkId, std::size_t>> MapHash::counts() const {
+  std::vector<std::pair<ChunkId, std::size_t>> all;
+  all.reserve(chunks_.size());
+  for (const auto& [chunk, sum] : chunks_) all.emplace_back(chunk, static_cast<std::size_t>(sum.count));
+  return all;
 }
 
 std::uint64_t MapHash::value() const {

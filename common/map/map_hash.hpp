@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/gaussian/gaussian_cloud.hpp"
-#include "common/map/chunk_id.hpp"
+#include "common/map/quantised.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <utility>
+#include <vector>
 
 namespace edgesplat::map {
 
-/// 64-bit digest of one Gaussian as it was decoded: id, every field's bits and the anchor.
-[[nodiscard]] std::uint64_t record_digest(const gaussian::GaussianCloud& cloud, std::size_t row);
+/// 64-bit digest of one Gaussian as it travelled: id, every channel, SH and the anchor.
+[[nodiscard]] std::uint64_t record_digest(const QuantisedRows& rows, std::size_t row);
 
 /// Hash of a set of Gaussians, by chunk, that robot and server each keep over their own memory. Equal for
 /// equal sets whatever the order in which the rows came or lie, as if the records were sorted by id: a
@@ -28,6 +29,8 @@ class MapHash {
   /// Of one chunk; 0 where it holds nothing.
   [[nodiscard]] std::uint64_t chunk_value(const ChunkId& chunk) const;
   [[nodiscard]] std::size_t chunk_count() const { return chunks_.size(); }
+  /// Every chunk that holds something, with the number of its records, in the order of their ids.
+  [[nodiscard]] std::vector<std::pair<ChunkId, std::size_t>> counts() const;
 
  private:
   struct Sum {

@@ -23,23 +23,39 @@ MapShare::MapShare(const robot_config::RobotConfig& config, std::unique_ptr<link
                    const Clock& clock)
     : clock_(clock), transport_(std::move(transport)), resident_(config.map) {
   uplink::DownlinkHandlers handlers;
-  handlers.on_delta = [this](std::span<const std::byte> delta) { resident_.apply(delta, clock_.now()); };
-  handlers.on_heartbeat = [this](const link::Heartbeat& heartbeat) { on_heartbeat(heartbeat); };
-  handlers.on_idle = [this] { resident_.publish_if_due(clock_.now()); };
+  handlers.on_delta = [this](std::span<const std::byte> delta) {
+    resident_.apply(delta, clock_.now());
+    send_requests();
+  };
+  handlers.on_heartbeat = [this](const link::Heartbeat& heartbeat) {
+    on_heartbeat(heartbeat);
+    send_requests();
+  };
+  handlers.on_idle = [this] {
+    resident_.publish_if_due(clock_.now());
+    send_requests();
+  };
   downlink_ = std::make_unique<uplink::Downlink>(*transport_, std::move(handlers));
   uplink_ = std::make_unique<uplink::Uplink>(config.uplink, *transport_, clock_);
 }
 
 MapShare::~MapShare() = default;
 
+void MapShare::send_requests() {
+  for (const map::MapRequest& request : resident_.requests(clock_.now()))
+    (void)transport_->send(link::Lane::kRequest, request.robot, map::encode_map_request(request));
+}
+
 void MapShare::submit(std::shared_ptr<const map::Keyframe> keyframe) {
+  resident_.robot_at(keyframe->odom_from_body.translation_m.cast<float>());
   (void)uplink_->submit(std::move(keyframe));
 }
 
 void MapShare::on_heartbeat(const link::Heartbeat& heartbeat) {
+  const bool idle = heartbeat.queued_messages == 0;
+  resident_.server_at({heartbeat.epoch, heartbeat.seq}, heartbeat.map_hash, idle, clock_.now());
   const map::MapPosition here = resident_.position();
-  const bool agrees =
-      heartbeat.queued_messages == 0 && heartbeat.epoch == here.epoch && heartbeat.seq == here.seq;
+  const bool agrees = idle && heartbeat.epoch == here.epoch && heartbeat.seq == here.seq;
   const std::lock_guard lock(agreement_mutex_);
   agreeing_heartbeats_ = agrees ? agreeing_heartbeats_ + 1 : 0;
   agreement_changed_.notify_all();
@@ -72,6 +88,12 @@ void MapShare::publish_counters(metrics::Registry& metrics) const {
   metrics.counter("map.deltas_held").add(resident.held);
   metrics.counter("map.deltas_corrupt").add(resident.corrupt);
   metrics.counter("map.resets").add(resident.resets);
+  metrics.counter("map.resends_asked").add(resident.resends_asked);
+  metrics.counter("map.snapshots_asked").add(resident.snapshots_asked);
+  metrics.counter("map.hash_agreed").add(resident.hash_agreed);
+  metrics.counter("map.hash_disagreed").add(resident.hash_disagreed);
+  metrics.counter("map.evicted_chunks").add(resident.evicted_chunks);
+  metrics.gauge("map.absent_chunks").set(static_cast<double>(resident.absent_chunks));
   metrics.gauge("map.gaussians").set(static_cast<double>(resident.gaussians));
   metrics.gauge("map.resident_bytes").set(static_cast<double>(resident.resident_bytes));
   std::uint64_t bytes_up = 0;

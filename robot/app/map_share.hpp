@@ -46,6 +46,7 @@ class MapShare {
 
  private:
   void on_heartbeat(const link::Heartbeat& heartbeat);
+  void send_requests();
 
   const Clock& clock_;
   std::unique_ptr<link::Transport> transport_;

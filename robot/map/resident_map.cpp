@@ -4,21 +4,29 @@
 
 #include "common/map/delta_codec.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace edgesplat::map {
 namespace {
 
-/// Memory of one Gaussian: id, 11 floats, anchor, SH, and about 56 bytes in the set of ids.
-std::size_t bytes_each(const gaussian::GaussianCloud& cloud) {
-  return 8 + 4 * 11 + 8 + 4 * cloud.sh_floats_each() + 56;
+constexpr auto kMorePatience = std::chrono::milliseconds(500);
+/// A hash may disagree once where the heartbeat was made between two steps of the server.
+constexpr unsigned kDisagreements = 2;
+
+DeltaGateConfig gate_config(const ResidentMapConfig& config) {
+  DeltaGateConfig gate;
+  gate.max_held_deltas = config.max_held_deltas;
+  gate.max_held_bytes = config.max_held_bytes;
+  return gate;
 }
 
 }  // namespace
 
 ResidentMap::ResidentMap(const ResidentMapConfig& config)
-    : config_(config), published_(std::make_shared<const gaussian::GaussianCloud>()) {}
+    : config_(config),
+      gate_(gate_config(config)),
+      residency_(config.budget_bytes),
+      published_(std::make_shared<const gaussian::GaussianCloud>()) {}
 
 ApplyOutcome ResidentMap::apply(std::span<const std::byte> delta, HostTime now) {
   const auto header = decode_delta_header(delta);
@@ -27,91 +35,102 @@ ApplyOutcome ResidentMap::apply(std::span<const std::byte> delta, HostTime now) 
     ++counters_.corrupt;
     return ApplyOutcome::kCorrupt;
   }
-  const ApplyOutcome outcome = place(*header, delta);
-  if (outcome == ApplyOutcome::kApplied) publish_where_due(now);
+  const ApplyOutcome outcome = place(*header, delta, now);
+  if (outcome == ApplyOutcome::kApplied) {
+    while (const auto next = gate_.take_next()) {
+      if (!apply_now(*next, now)) break;
+    }
+    evict_overflow();
+    publish_where_due(now);
+  }
   return outcome;
 }
 
-ApplyOutcome ResidentMap::place(const DeltaHeader& header, std::span<const std::byte> delta) {
-  if (started_ && header.epoch < position_.epoch) {
-    ++counters_.old_epoch;
-    return ApplyOutcome::kOldEpoch;
+ApplyOutcome ResidentMap::place(const DeltaHeader& header, std::span<const std::byte> delta, HostTime now) {
+  switch (gate_.place(header, delta, now)) {
+    case DeltaGate::Verdict::kApply:
+      return apply_now(delta, now) ? ApplyOutcome::kApplied : ApplyOutcome::kCorrupt;
+    case DeltaGate::Verdict::kDuplicate:
+      ++counters_.duplicates;
+      return ApplyOutcome::kDuplicate;
+    case DeltaGate::Verdict::kHeld:
+      ++counters_.held;
+      return ApplyOutcome::kHeld;
+    case DeltaGate::Verdict::kOld:
+      ++counters_.old_epoch;
+      return ApplyOutcome::kOldEpoch;
+    case DeltaGate::Verdict::kNeedsReset:
+      break;
   }
-  if (!started_ || header.epoch > position_.epoch) {
-    if (header.base_seq != 0) {
-      ++counters_.needs_reset;
-      return ApplyOutcome::kNeedsReset;
-    }
-    reset(header);
-  }
-  if (header.map != map_uuid_) {
-    ++counters_.corrupt;
-    return ApplyOutcome::kCorrupt;
-  }
-  if (header.seq <= position_.seq || held_.contains(header.seq)) {
-    ++counters_.duplicates;
-    return ApplyOutcome::kDuplicate;
-  }
-  if (header.base_seq > position_.seq) return hold(header, delta);
-  if (!apply_now(header, delta)) return ApplyOutcome::kCorrupt;
-  apply_held();
-  return ApplyOutcome::kApplied;
+  ++counters_.needs_reset;
+  return ApplyOutcome::kNeedsReset;
 }
 
-ApplyOutcome ResidentMap::hold(const DeltaHeader& header, std::span<const std::byte> delta) {
-  if (held_.size() >= config_.max_held_deltas || held_bytes_ + delta.size() > config_.max_held_bytes) {
-    ++counters_.needs_reset;
-    return ApplyOutcome::kNeedsReset;
-  }
-  held_.emplace(header.seq, Held{header, {delta.begin(), delta.end()}});
-  held_bytes_ += delta.size();
-  ++counters_.held;
-  return ApplyOutcome::kHeld;
-}
-
-void ResidentMap::apply_held() {
-  while (!held_.empty() && held_.begin()->second.header.base_seq <= position_.seq) {
-    const auto node = held_.extract(held_.begin());
-    const Held& held = node.mapped();
-    held_bytes_ -= held.bytes.size();
-    if (held.header.seq > position_.seq && !apply_now(held.header, held.bytes)) return;
-  }
-}
-
-bool ResidentMap::apply_now(const DeltaHeader& header, std::span<const std::byte> bytes) {
-  const auto delta = decode_add(bytes);
-  const bool fits = delta && (cloud_.size() == 0 || cloud_.sh_degree == delta->gaussians.sh_degree);
-  if (!fits) {
+bool ResidentMap::apply_now(std::span<const std::byte> bytes, HostTime now) {
+  const auto delta = decode_delta(bytes);
+  if (!delta || !state_.apply(*delta)) {
     ++counters_.corrupt;
     return false;
   }
-  const auto& added = delta->gaussians;
-  cloud_.sh_degree = added.sh_degree;
-  for (std::size_t row = 0; row < added.size(); ++row) {
-    if (!resident_.insert(added.ids[row]).second) {
-      ++counters_.duplicate_ids;
-      continue;
-    }
-    cloud_.append_row(added, row);
-    hash_.add(delta->chunks[row], record_digest(added, row));
+  if (delta->header.base_seq == 0) {
+    if (counters_.applied > 0) ++counters_.resets;
+    more_waits_ = false;
+    disagreements_ = 0;
   }
-  position_.seq = header.seq;
+  gate_.applied(delta->header, now);
+  residency_.applied(*delta);
+  if (const auto* replace = std::get_if<ChunkReplaceBody>(&delta->body)) {
+    more_waits_ = replace->more;
+    more_asked_.reset();
+  }
   changed_ = true;
   ++counters_.applied;
   return true;
 }
 
-void ResidentMap::reset(const DeltaHeader& header) {
-  if (started_) ++counters_.resets;
-  started_ = true;
-  cloud_ = {};
-  resident_.clear();
-  hash_.clear();
-  held_.clear();
-  held_bytes_ = 0;
-  map_uuid_ = header.map;
-  position_ = {header.epoch, 0};
-  changed_ = true;
+void ResidentMap::evict_overflow() {
+  for (const ChunkId& chunk : residency_.overflow(state_, bytes_each())) {
+    residency_.dropped_alone(chunk, state_.drop_chunk(chunk));
+    ++counters_.evicted_chunks;
+    changed_ = true;
+  }
+}
+
+void ResidentMap::server_at(const MapPosition& position, std::uint64_t hash, bool idle, HostTime now) {
+  const std::lock_guard lock(mutex_);
+  if (idle) gate_.server_at(position, now);
+  const MapPosition& here = gate_.position();
+  if (position.epoch != here.epoch || position.seq != here.seq || !residency_.in_step()) return;
+  const bool agrees = hash == state_.hash();
+  ++(agrees ? counters_.hash_agreed : counters_.hash_disagreed);
+  disagreements_ = agrees ? 0 : disagreements_ + 1;
+  if (disagreements_ >= kDisagreements) gate_.ask_snapshot();
+}
+
+void ResidentMap::robot_at(const Eigen::Vector3f& p_in_map_m) {
+  const std::lock_guard lock(mutex_);
+  residency_.robot_at(p_in_map_m);
+}
+
+std::vector<MapRequest> ResidentMap::requests(HostTime now) {
+  const std::lock_guard lock(mutex_);
+  std::vector<MapRequest> requests = residency_.requests(state_, bytes_each(), now);
+  if (auto request = gate_.request(now)) {
+    ++(request->kind == RequestKind::kResend ? counters_.resends_asked : counters_.snapshots_asked);
+    requests.push_back(std::move(*request));
+  }
+  const bool more_due = !more_asked_ || now - *more_asked_ >= kMorePatience;
+  if (more_waits_ && more_due && residency_.has_room(state_, bytes_each())) {
+    more_asked_ = now;
+    requests.emplace_back().kind = RequestKind::kMore;
+  }
+  for (MapRequest& request : requests) {
+    request.robot = config_.robot;
+    request.epoch = gate_.position().epoch;
+    request.seq = gate_.position().seq;
+    request.robot_in_map_m = residency_.robot_in_map_m();
+  }
+  return requests;
 }
 
 void ResidentMap::publish_if_due(HostTime now) {
@@ -122,7 +141,7 @@ void ResidentMap::publish_if_due(HostTime now) {
 void ResidentMap::publish_where_due(HostTime now) {
   const bool due = counters_.snapshots == 0 || now - last_publish_ >= from_seconds(config_.publish_period_s);
   if (!changed_ || !due) return;
-  auto snapshot = std::make_shared<const gaussian::GaussianCloud>(cloud_);
+  auto snapshot = std::make_shared<const gaussian::GaussianCloud>(dequantise(state_.rows()));
   changed_ = false;
   last_publish_ = now;
   ++counters_.snapshots;
@@ -141,22 +160,29 @@ MapFromOdom ResidentMap::map_from_odom() const {
 
 MapPosition ResidentMap::position() const {
   const std::lock_guard lock(mutex_);
-  return position_;
+  return gate_.position();
 }
 
 std::uint64_t ResidentMap::map_hash() const {
   const std::lock_guard lock(mutex_);
-  return hash_.value();
+  return state_.hash();
+}
+
+std::size_t ResidentMap::bytes_each() const {
+  // The integers, and the floats of the published snapshot.
+  constexpr std::size_t kFloats_bytes = 8 + 4 * (3 + 3 + 4 + 1 + 3) + 8;
+  return state_.bytes_each() + kFloats_bytes + 4 * state_.rows().sh_rest_each();
 }
 
 ResidentMapCounters ResidentMap::counters() const {
   const std::lock_guard lock(mutex_);
   ResidentMapCounters counters = counters_;
-  counters.gaussians = cloud_.size();
-  counters.resident_bytes = cloud_.size() * bytes_each(cloud_);
+  counters.gaussians = state_.size();
+  counters.resident_bytes = state_.size() * bytes_each();
   counters.over_budget_bytes =
       counters.resident_bytes > config_.budget_bytes ? counters.resident_bytes - config_.budget_bytes : 0;
-  counters.held_now = held_.size();
+  counters.held_now = gate_.held();
+  counters.absent_chunks = residency_.absent_chunks();
   return counters;
 }
 

@@ -21,8 +21,7 @@ Server::Server(const config::ServerConfig& config, map::Epoch epoch, link::Trans
       last_keyframe_ns_(to_ns(clock.now())),
       // A full queue blocks the receiver; its inbox and DDS fill up then, and the robots shed what is oldest.
       queue_({config.queue_keyframes}, thread::Overflow::kBlock) {
-  mapper_.emplace(thread::Worker::consume<ingest::IngestedKeyframe>(
-      "map", queue_, [this](const ingest::IngestedKeyframe& keyframe) { map_keyframe(keyframe); }));
+  mapper_.emplace(thread::Worker::consume<Job>("map", queue_, [this](const Job& job) { do_job(job); }));
   receiver_.emplace("ingest", [this](const std::stop_token& stop) { return receive_step(stop); });
 }
 
@@ -34,19 +33,36 @@ bool Server::receive_step(const std::stop_token& stop) {
   const auto message = transport_.receive(std::chrono::milliseconds(100));
   if (stop.stop_requested()) return false;
   if (!message) return !transport_.finished();
+  if (message->lane == link::Lane::kRequest) {
+    send(message->robot, stage_.answer(*message));
+    (void)queue_.push(Job(message->robot));
+  }
   if (message->lane != link::Lane::kKeyframe)
     return true;  // the robots' heartbeats: nothing here depends on them yet
   const HostTime received = clock_.now();
   last_keyframe_ns_ = to_ns(received);
   auto keyframe = ingest_.take(*message, received);
-  if (keyframe) (void)queue_.push(std::move(*keyframe));
+  if (keyframe) (void)queue_.push(Job(std::move(*keyframe)));
   return true;
 }
 
-void Server::map_keyframe(const ingest::IngestedKeyframe& keyframe) {
-  for (auto& delta : stage_.handle(keyframe)) {
-    if (!transport_.send(link::Lane::kDelta, keyframe.robot, std::move(delta))) deltas_refused_.add();
+void Server::send(map::RobotId robot, std::vector<std::vector<std::byte>> deltas) {
+  for (auto& delta : deltas) {
+    if (!transport_.send(link::Lane::kDelta, robot, std::move(delta))) deltas_refused_.add();
   }
+}
+
+void Server::do_job(const Job& job) {
+  if (const auto* keyframe = std::get_if<ingest::IngestedKeyframe>(&job)) {
+    map_keyframe(*keyframe);
+  } else {
+    const map::RobotId robot = std::get<map::RobotId>(job);
+    send(robot, stage_.pump(robot));
+  }
+}
+
+void Server::map_keyframe(const ingest::IngestedKeyframe& keyframe) {
+  send(keyframe.robot, stage_.handle(keyframe));
   keyframe_to_delta_ms_.record(to_seconds(clock_.now() - keyframe.received) * 1e3);
 }
 

@@ -10,6 +10,8 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
+#include <variant>
+#include <vector>
 
 namespace edgesplat::app {
 
@@ -33,7 +35,11 @@ class Server {
 
  private:
   bool receive_step(const std::stop_token& stop);
+  /// A keyframe to map, or a robot whose stream has something to say.
+  using Job = std::variant<ingest::IngestedKeyframe, map::RobotId>;
+  void do_job(const Job& job);
   void map_keyframe(const ingest::IngestedKeyframe& keyframe);
+  void send(map::RobotId robot, std::vector<std::vector<std::byte>> deltas);
 
   const config::ServerConfig& config_;
   link::Transport& transport_;
@@ -43,7 +49,7 @@ class Server {
   metrics::Histogram& keyframe_to_delta_ms_;
   metrics::Counter& deltas_refused_;
   std::atomic<std::int64_t> last_keyframe_ns_;
-  thread::BoundedQueue<ingest::IngestedKeyframe> queue_;
+  thread::BoundedQueue<Job> queue_;
   std::optional<thread::Worker> receiver_;
   std::optional<thread::Worker> mapper_;
 };

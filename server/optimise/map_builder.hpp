@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/map/chunk_id.hpp"
 #include "common/map/keyframe.hpp"
-#include "common/map/map_hash.hpp"
 #include "kernels/mapping/seed.hpp"
 
 #include <cstddef>
@@ -13,10 +11,9 @@
 
 namespace edgesplat::optimise {
 
-/// What a keyframe changed: new rows and the chunk each is born in.
+/// What a keyframe changed.
 struct MapChange {
-  gaussian::GaussianCloud added;
-  std::vector<map::ChunkId> chunks;  ///< [N]
+  std::vector<std::uint32_t> changed_rows;  ///< new Gaussians, at the end of the map
 };
 
 /// The server's map of one robot's session, grown keyframe by keyframe. `map` and `odom` are one frame until
@@ -28,14 +25,11 @@ class MapBuilder {
 
   MapChange add(const map::Keyframe& keyframe);
   [[nodiscard]] const gaussian::GaussianCloud& gaussians() const { return gaussians_; }
-  [[nodiscard]] std::uint64_t map_hash() const { return hash_.value(); }
-  [[nodiscard]] std::size_t chunk_count() const { return hash_.chunk_count(); }
   [[nodiscard]] const mapping::SeedStats& seed_stats() const { return seeder_.stats(); }
 
  private:
   mapping::MapSeeder seeder_;
   gaussian::GaussianCloud gaussians_;
-  map::MapHash hash_;
 };
 
 }  // namespace edgesplat::optimise

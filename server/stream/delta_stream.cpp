@@ -2,35 +2,201 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/stream/delta_stream.hpp"
 
-#include "common/map/delta_codec.hpp"
+#include "common/map/row_codec.hpp"
+#include "server/stream/row_change.hpp"
+#include "server/stream/stream_parts.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace edgesplat::stream {
+namespace {
 
-Result<std::vector<std::vector<std::byte>>> DeltaStream::add(const gaussian::GaussianCloud& gaussians,
-                                                             std::span<const map::ChunkId> chunks) {
-  std::vector<std::vector<std::byte>> encoded;
-  std::uint64_t seq = seq_;
-  for (std::size_t first = 0; first < gaussians.size(); first += max_rows_) {
-    const std::size_t end = std::min(first + max_rows_, gaussians.size());
-    map::AddDelta delta;
-    delta.header.robot = robot_;
-    delta.header.map = map_;
-    delta.header.epoch = epoch_;
-    delta.header.base_seq = seq;
-    delta.header.seq = ++seq;
-    delta.gaussians.sh_degree = gaussians.sh_degree;
-    for (std::size_t row = first; row < end; ++row) {
-      delta.gaussians.append_row(gaussians, row);
-      delta.chunks.push_back(chunks[row]);
-    }
-    EDGESPLAT_TRY(auto bytes, map::encode_add(delta));
-    encoded.push_back(std::move(bytes));
+map::QuantisedRows part_of(const map::QuantisedRows& rows, std::size_t first, std::size_t end) {
+  map::QuantisedRows part;
+  part.sh_degree = rows.sh_degree;
+  for (std::size_t row = first; row < end; ++row) part.append_row(rows, row);
+  return part;
+}
+
+}  // namespace
+
+DeltaStream::DeltaStream(const DeltaStreamConfig& config)
+    : config_(config), ring_(config.ring_deltas, config.ring_bytes), plan_(config.window_bytes) {}
+
+std::vector<Bytes> DeltaStream::publish(const gaussian::GaussianCloud& cloud,
+                                        std::span<const std::uint32_t> changed_rows,
+                                        std::span<const gaussian::GaussianId> removed,
+                                        std::size_t byte_budget) {
+  const std::lock_guard lock(mutex_);
+  Outbox out{byte_budget};
+  for (const auto& id : removed) waiting_.erase(id);
+  send_removed({removed.begin(), removed.end()}, out);
+  if (snapshot_near_m_) begin_snapshot(cloud, out);
+  send_chunks(cloud, out);
+  Changes changes = sort_out(cloud, candidates(cloud, changed_rows));
+  waiting_.clear();
+  send_removed(std::move(changes.left), out);
+  send_added(map::sorted_by_chunk(changes.added), out);
+  send_updates(changes, out);
+  return std::move(out.deltas);
+}
+
+std::vector<std::uint32_t> DeltaStream::candidates(const gaussian::GaussianCloud& cloud,
+                                                   std::span<const std::uint32_t> changed_rows) const {
+  std::vector<char> wanted(cloud.size(), 0);
+  for (const std::uint32_t row : changed_rows) {
+    if (row < wanted.size()) wanted[row] = 1;
   }
-  seq_ = seq;
-  return encoded;
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t row = 0; row < wanted.size(); ++row) {
+    if (wanted[row] != 0 || (!waiting_.empty() && waiting_.contains(cloud.ids[row]))) rows.push_back(row);
+  }
+  return rows;
+}
+
+map::ChunkId DeltaStream::place(const gaussian::GaussianCloud& cloud, std::size_t row) const {
+  const float* mean_m = cloud.means_m.data() + 3 * row;
+  const Eigen::Vector3f p_in_map_m(mean_m[0], mean_m[1], mean_m[2]);
+  const auto held = held_.find(cloud.ids[row]);
+  return held ? map::chunk_after_move(held_.rows().chunks[*held], p_in_map_m) : map::chunk_of(p_in_map_m);
+}
+
+DeltaStream::Changes DeltaStream::sort_out(const gaussian::GaussianCloud& cloud,
+                                           std::span<const std::uint32_t> rows) {
+  Changes changes;
+  changes.added.sh_degree = changes.now.sh_degree = cloud.sh_degree;
+  for (const std::uint32_t row : rows) {
+    if (map::unquantisable(cloud, row) != nullptr) {
+      ++counters_.unquantisable;
+      continue;
+    }
+    const map::ChunkId chunk = place(cloud, row);
+    const auto held = held_.find(cloud.ids[row]);
+    if (plan_.withheld(chunk)) {
+      if (held) changes.left.push_back(cloud.ids[row]);
+    } else if (!held || held_.rows().chunks[*held] != chunk) {
+      map::append_quantised(cloud, row, chunk, changes.added);
+    } else {
+      map::append_quantised(cloud, row, chunk, changes.now);
+      const RowChange change =
+          settle_change(changes.now, changes.now.size() - 1, held_.rows(), *held, config_.tolerance);
+      if (change.fields == 0) {
+        changes.now.resize(changes.now.size() - 1);
+      } else {
+        changes.updates.push_back(
+            {change.priority, change.fields, static_cast<std::uint32_t>(changes.now.size() - 1)});
+      }
+    }
+  }
+  return changes;
+}
+
+bool DeltaStream::emit(map::Delta delta, Outbox& out) {
+  delta.header.robot = config_.robot;
+  delta.header.map = config_.map;
+  delta.header.epoch = config_.epoch;
+  delta.header.seq = seq_ + 1;
+  delta.header.base_seq = begins_anew_ ? 0 : seq_;
+  auto bytes = map::encode_delta(delta);
+  // The robot gets what the bytes say (poses are rounded on the way), so the mirror does too.
+  auto as_sent = bytes ? map::decode_delta(*bytes) : Result<map::Delta>(fail(Errc::kInvalidArgument, ""));
+  if (!as_sent || !held_.apply(*as_sent)) {
+    ++counters_.refused;
+    return false;
+  }
+  begins_anew_ = false;
+  ++seq_;
+  out.bytes += bytes->size();
+  out.last_bytes = bytes->size();
+  ring_.push(seq_, *bytes);
+  out.deltas.push_back(std::move(*bytes));
+  return true;
+}
+
+void DeltaStream::send_removed(std::vector<gaussian::GaussianId> ids, Outbox& out) {
+  std::erase_if(ids, [this](const auto& id) { return !held_.find(id); });
+  std::sort(ids.begin(), ids.end());
+  for (std::size_t first = 0; first < ids.size(); first += map::kMaxDeltaRecords) {
+    const std::size_t end = std::min(first + map::kMaxDeltaRecords, ids.size());
+    const auto begin = ids.begin() + static_cast<std::ptrdiff_t>(first);
+    map::RemoveBody body{{begin, ids.begin() + static_cast<std::ptrdiff_t>(end)}};
+    if (emit({{}, std::move(body)}, out)) counters_.removed += end - first;
+  }
+}
+
+void DeltaStream::send_added(map::QuantisedRows rows, Outbox& out) {
+  std::size_t first = 0;
+  while (first < rows.size() && !out.full()) {
+    const std::size_t end = std::min(first + config_.max_rows, rows.size());
+    if (!emit({{}, map::AddBody{part_of(rows, first, end)}}, out)) break;
+    counters_.added += end - first;
+    counters_.add_bytes += out.last_bytes;
+    first = end;
+  }
+  waiting_.insert(rows.ids.begin() + static_cast<std::ptrdiff_t>(first), rows.ids.end());
+}
+
+void DeltaStream::send_updates(Changes& changes, Outbox& out) {
+  auto& updates = changes.updates;
+  std::size_t fitting = 0;
+  if (!out.full()) {
+    const double room_bytes = static_cast<double>(out.budget_bytes - out.bytes);
+    fitting = std::min(updates.size(), static_cast<std::size_t>(room_bytes / bytes_per_update_));
+  }
+  const auto middle = updates.begin() + static_cast<std::ptrdiff_t>(fitting);
+  std::nth_element(updates.begin(), middle, updates.end(),
+                   [](const auto& a, const auto& b) { return a.priority > b.priority; });
+  for (auto left = middle; left != updates.end(); ++left) waiting_.insert(changes.now.ids[left->row]);
+  updates.erase(middle, updates.end());
+  std::sort(updates.begin(), updates.end(),
+            [&](const auto& a, const auto& b) { return changes.now.ids[a.row] < changes.now.ids[b.row]; });
+  for (std::size_t first = 0; first < updates.size(); first += config_.max_rows) {
+    const std::size_t end = std::min(first + config_.max_rows, updates.size());
+    map::UpdateBody body;
+    body.differences.sh_degree = changes.now.sh_degree;
+    for (std::size_t i = first; i < end; ++i) {
+      const std::uint32_t held_row = *held_.find(changes.now.ids[updates[i].row]);
+      map::append_difference(changes.now, updates[i].row, held_.rows(), held_row, body.differences);
+      body.fields |= updates[i].fields;
+    }
+    if (!emit({{}, std::move(body)}, out)) return;
+    counters_.updated += end - first;
+    counters_.update_bytes += out.last_bytes;
+    const double each = static_cast<double>(out.last_bytes) / static_cast<double>(end - first);
+    bytes_per_update_ += 0.5 * (std::min(each, 64.0) - bytes_per_update_);
+  }
+}
+
+std::vector<Bytes> DeltaStream::repose(std::span<const map::PoseCorrection> corrections) {
+  const std::lock_guard lock(mutex_);
+  Outbox out{0};
+  for (std::size_t first = 0; first < corrections.size(); first += map::kMaxPoseCorrections) {
+    const auto part =
+        corrections.subspan(first, std::min(map::kMaxPoseCorrections, corrections.size() - first));
+    (void)emit({{}, map::ReposeBody{{part.begin(), part.end()}}}, out);
+  }
+  return std::move(out.deltas);
+}
+
+std::vector<Bytes> DeltaStream::mask(const map::MaskBody& mask) {
+  const std::lock_guard lock(mutex_);
+  Outbox out{0};
+  (void)emit({{}, mask}, out);
+  return std::move(out.deltas);
+}
+
+StreamPosition DeltaStream::position() const {
+  const std::lock_guard lock(mutex_);
+  return {seq_, held_.hash(), held_.size()};
+}
+
+DeltaStreamCounters DeltaStream::counters() const {
+  const std::lock_guard lock(mutex_);
+  DeltaStreamCounters counters = counters_;
+  counters.waiting = waiting_.size();
+  return counters;
 }
 
 }  // namespace edgesplat::stream

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "test/support/map_samples.hpp"
 
+#include "common/map/row_codec.hpp"
 #include "test/support/random.hpp"
 
 #include <memory>
@@ -49,6 +50,20 @@ gaussian::GaussianCloud random_gaussians(std::size_t count, std::uint64_t seed, 
   for (float& v : cloud.opacity_logits) v = 2.0F * small(random);
   for (float& v : cloud.sh) v = small(random);
   return cloud;
+}
+
+map::QuantisedRows quantised(const gaussian::GaussianCloud& cloud) {
+  map::QuantisedRows rows;
+  rows.sh_degree = cloud.sh_degree;
+  for (std::size_t row = 0; row < cloud.size(); ++row) {
+    const float* m = cloud.means_m.data() + 3 * row;
+    map::append_quantised(cloud, row, map::chunk_of({m[0], m[1], m[2]}), rows);
+  }
+  return map::sorted_by_chunk(rows);
+}
+
+map::QuantisedRows random_rows(std::size_t count, std::uint64_t seed, int sh_degree) {
+  return quantised(random_gaussians(count, seed, sh_degree));
 }
 
 map::Keyframe random_keyframe(std::uint32_t id, std::size_t points, std::uint64_t seed) {

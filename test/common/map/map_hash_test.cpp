@@ -13,13 +13,9 @@
 namespace edgesplat::map {
 namespace {
 
-ChunkId chunk_of_row(const gaussian::GaussianCloud& cloud, std::size_t row) {
-  return chunk_of({cloud.means_m[3 * row], cloud.means_m[3 * row + 1], cloud.means_m[3 * row + 2]});
-}
-
-MapHash hash_of(const gaussian::GaussianCloud& cloud, const std::vector<std::size_t>& order) {
+MapHash hash_of(const QuantisedRows& all, const std::vector<std::size_t>& order) {
   MapHash hash;
-  for (const std::size_t row : order) hash.add(chunk_of_row(cloud, row), record_digest(cloud, row));
+  for (const std::size_t row : order) hash.add(all.chunks[row], record_digest(all, row));
   return hash;
 }
 
@@ -30,7 +26,7 @@ std::vector<std::size_t> rows(std::size_t count) {
 }
 
 TEST(MapHash, DoesNotDependOnTheOrder) {
-  const auto cloud = test::random_gaussians(300, 1);
+  const auto cloud = test::random_rows(300, 1);
   auto order = rows(300);
   const std::uint64_t straight = hash_of(cloud, order).value();
   std::mt19937 random(2);
@@ -39,7 +35,7 @@ TEST(MapHash, DoesNotDependOnTheOrder) {
 }
 
 TEST(MapHash, EveryFieldCounts) {
-  const auto cloud = test::random_gaussians(10, 1, 1);
+  const auto cloud = test::random_rows(10, 1, 1);
   const std::uint64_t before = hash_of(cloud, rows(10)).value();
   const auto differs = [&](auto change) {
     auto other = cloud;
@@ -47,30 +43,28 @@ TEST(MapHash, EveryFieldCounts) {
     return record_digest(other, 4) != record_digest(cloud, 4);
   };
   EXPECT_TRUE(differs([](auto& c) { c.ids[4] = gaussian::GaussianId(1, 99); }));
-  EXPECT_TRUE(differs([](auto& c) { c.means_m[3 * 4 + 2] += 1e-5F; }));
-  EXPECT_TRUE(differs([](auto& c) { c.log_scales[3 * 4] += 1e-5F; }));
-  EXPECT_TRUE(differs([](auto& c) { c.quats_xyzw[4 * 4 + 3] += 1e-5F; }));
-  EXPECT_TRUE(differs([](auto& c) { c.opacity_logits[4] += 1e-5F; }));
-  EXPECT_TRUE(differs([](auto& c) { c.sh[12 * 4 + 11] += 1e-5F; }));
+  for (std::size_t k = 0; k < kChannelCount; ++k)
+    EXPECT_TRUE(differs([k](auto& c) { c.channels[4][k] ^= 1U; })) << k;
+  EXPECT_TRUE(differs([](auto& c) { c.sh_rest[9 * 4 + 8] ^= 1; }));
   EXPECT_TRUE(differs([](auto& c) { c.anchors[4].keyframe += 1; }));
   EXPECT_TRUE(differs([](auto& c) { c.anchors[4].pose_version += 1; }));
-  EXPECT_FALSE(differs([](auto& c) { c.means_m[0] += 1.0F; }));  // another row's
+  EXPECT_FALSE(differs([](auto& c) { c.channels[0][0] ^= 1U; }));  // another row's
   auto without_last = rows(9);
   EXPECT_NE(hash_of(cloud, without_last).value(), before);
 }
 
 TEST(MapHash, RemovingUndoesAdding) {
-  const auto cloud = test::random_gaussians(20, 1);
+  const auto cloud = test::random_rows(20, 1);
   MapHash hash = hash_of(cloud, rows(19));
   const std::uint64_t before = hash.value();
-  hash.add(chunk_of_row(cloud, 19), record_digest(cloud, 19));
+  hash.add(cloud.chunks[19], record_digest(cloud, 19));
   EXPECT_NE(hash.value(), before);
-  hash.remove(chunk_of_row(cloud, 19), record_digest(cloud, 19));
+  hash.remove(cloud.chunks[19], record_digest(cloud, 19));
   EXPECT_EQ(hash.value(), before);
 }
 
 TEST(MapHash, TheChunkCounts) {
-  const auto cloud = test::random_gaussians(1, 1);
+  const auto cloud = test::random_rows(1, 1);
   MapHash here;
   MapHash there;
   here.add({0, 0, 0}, record_digest(cloud, 0));
