@@ -9,6 +9,7 @@ namespace {
 
 constexpr dds_duration_t kMaxBlocking = DDS_MSECS(20);
 constexpr std::int32_t kMaxSamples = 256;
+constexpr std::int32_t kProbeSamples = 32;
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 using Listener = std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)>;
@@ -26,9 +27,14 @@ Qos qos_of(Lane lane) {
       dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlocking);
       dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
       break;
+    case Lane::kProbe:
+      dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kProbeSamples);
+      break;
     case Lane::kRequest:
     case Lane::kDelta:
     case Lane::kKeyframe:
+    case Lane::kSpool:
       dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlocking);
       dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, 0);
       dds_qset_resource_limits(qos.get(), kMaxSamples, DDS_LENGTH_UNLIMITED, kMaxSamples);
@@ -109,16 +115,18 @@ WriteOutcome write_chunk(const DdsEntity& writer, const ChunkHeader& header,
   sample.session = header.session;
   sample.train = header.train;
   sample.chunk_index = header.index;
+  sample.attempt = header.attempt;
   sample.chunk_count = header.count;
   sample.total_bytes = header.total_bytes;
   sample.message_crc32c = header.message_crc32c;
+  sample.chunk_crc32c = header.chunk_crc32c;
   sample.payload._length = static_cast<std::uint32_t>(payload.size());
   sample.payload._maximum = sample.payload._length;
   // dds_write only reads the sample; the C struct has no const.
   sample.payload._buffer = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(payload.data()));
   const dds_return_t rc = dds_write(writer.get(), &sample);
   if (rc == DDS_RETCODE_OK) return WriteOutcome::kWritten;
-  return rc == DDS_RETCODE_TIMEOUT ? WriteOutcome::kTimeout : WriteOutcome::kRefused;
+  return rc == DDS_RETCODE_TIMEOUT ? WriteOutcome::kBusy : WriteOutcome::kRefused;
 }
 
 bool take_chunk(const DdsEntity& reader, const ChunkHandler& handle) {
@@ -133,9 +141,11 @@ bool take_chunk(const DdsEntity& reader, const ChunkHandler& handle) {
     header.session = sample.session;
     header.train = sample.train;
     header.index = sample.chunk_index;
+    header.attempt = sample.attempt;
     header.count = sample.chunk_count;
     header.total_bytes = sample.total_bytes;
     header.message_crc32c = sample.message_crc32c;
+    header.chunk_crc32c = sample.chunk_crc32c;
     handle(header, {bytes_of(sample.payload._buffer), sample.payload._length});
   }
   (void)dds_return_loan(reader.get(), samples, taken);

@@ -5,8 +5,7 @@
 // Private to common/link: the only header that shows DDS.
 
 #include "common/base/result.hpp"
-#include "common/link/lane.hpp"
-#include "common/link/train.hpp"
+#include "common/link/chunk_path.hpp"
 
 #include "dds/dds.h"
 
@@ -49,11 +48,9 @@ using WakeFunction = std::function<void()>;
 [[nodiscard]] Result<DdsEntity> create_reader(const DdsEntity& participant, Role sender, Lane lane,
                                               const WakeFunction* wake);
 
-enum class WriteOutcome : std::uint8_t { kWritten, kTimeout, kRefused };
-/// Waits at most 20 ms for the network.
+/// Waits at most 20 ms for the network; kBusy when that was not enough.
 [[nodiscard]] WriteOutcome write_chunk(const DdsEntity& writer, const ChunkHeader& header,
                                        std::span<const std::byte> payload);
-using ChunkHandler = std::function<void(const ChunkHeader&, std::span<const std::byte>)>;
 /// Takes one chunk, if there is one. False: nothing was there.
 bool take_chunk(const DdsEntity& reader, const ChunkHandler& handle);
 [[nodiscard]] bool has_reader(const DdsEntity& writer);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/link/in_process_transport.hpp"
 
+#include "common/link/in_process_path.hpp"
 #include "common/thread/bounded_queue.hpp"
 
 #include <mutex>
@@ -78,6 +79,16 @@ InProcessLink make_in_process_link(map::RobotId robot, std::size_t inbox_message
   auto servers = std::make_shared<Inbox>(limits, thread::Overflow::kDropNewest);
   return {std::make_unique<InProcessTransport>(Role::kRobot, robot, robots, servers),
           std::make_unique<InProcessTransport>(Role::kServer, robot, servers, robots)};
+}
+
+InProcessEnds make_in_process_ends(LinkEndOptions robot, LinkEndOptions server, const Clock& clock) {
+  robot.role = Role::kRobot;
+  server.role = Role::kServer;
+  InProcessEnds ends{std::make_unique<LinkEnd>(robot, clock), std::make_unique<LinkEnd>(server, clock)};
+  InProcessPaths paths = make_in_process_paths(256, ends.robot->waker(), ends.server->waker());
+  ends.robot->attach(std::move(paths.robot));
+  ends.server->attach(std::move(paths.server));
+  return ends;
 }
 
 }  // namespace edgesplat::link

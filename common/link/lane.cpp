@@ -16,6 +16,10 @@ std::string_view to_string(Lane lane) {
       return "delta";
     case Lane::kKeyframe:
       return "keyframe";
+    case Lane::kSpool:
+      return "spool";
+    case Lane::kProbe:
+      return "probe";
   }
   return "unknown";
 }

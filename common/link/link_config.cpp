@@ -55,10 +55,12 @@ void describe(config::ConfigReader& reader, LinkConfig& config) {
   reader.field("queue_messages", config.queue_messages, {1, 4096}, "waiting to be sent, per lane");
   reader.field("queue_megabytes", config.queue_megabytes, {1, 1024}, "the same in MiB");
   reader.field("inbox_messages", config.inbox_messages, {1, 4096}, "received and not yet taken");
+  reader.table("impair", "what this end sends is made worse on purpose, for demonstrations and tests",
+               [&] { describe(reader, config.impair); });
 }
 
 SendLimits send_limits(const LinkConfig& config) {
-  return {config.queue_messages, config.queue_megabytes << 20U};
+  return {config.queue_messages, config.queue_megabytes << 20U, {}};
 }
 
 std::string cyclone_xml(const LinkConfig& config) {

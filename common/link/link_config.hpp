@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/config/config_reader.hpp"
+#include "common/link/impairment.hpp"
 #include "common/link/send_queue.hpp"
 
 #include <string>
@@ -17,6 +18,7 @@ struct LinkConfig {
   std::size_t queue_messages = 64;   ///< waiting to be sent, per lane, 1..4096
   std::size_t queue_megabytes = 64;  ///< the same in MiB, 1..1024
   std::size_t inbox_messages = 32;   ///< received and not yet taken, 1..4096
+  ImpairmentConfig impair;           ///< for demonstrations and tests
 };
 
 void describe(config::ConfigReader& reader, LinkConfig& config);

@@ -18,12 +18,15 @@ void record(metrics::Registry& registry, const LinkCounters& counters) {
         {"messages_replaced", of.messages_replaced},
         {"messages_sent", of.messages_sent},
         {"messages_acked", of.messages_acked},
+        {"messages_given_up", of.messages_given_up},
         {"chunks_sent", of.chunks_sent},
+        {"chunks_resent", of.chunks_resent},
         {"bytes_sent", of.bytes_sent},
         {"write_timeouts", of.write_timeouts},
         {"write_failures", of.write_failures},
         {"chunks_received", of.chunks_received},
         {"bytes_received", of.bytes_received},
+        {"chunks_corrupt", of.chunks_corrupt},
         {"messages_received", of.messages_received},
         {"messages_corrupt", of.messages_corrupt},
         {"messages_lost", of.messages_lost},
@@ -32,7 +35,17 @@ void record(metrics::Registry& registry, const LinkCounters& counters) {
     for (const auto& [name, value] : events) registry.counter(prefix + name).add(value);
     registry.gauge(prefix + "queued_messages").set(static_cast<double>(of.queued_messages));
     registry.gauge(prefix + "queued_bytes").set(static_cast<double>(of.queued_bytes));
+    registry.gauge(prefix + "flying_messages").set(static_cast<double>(of.flying_messages));
+    registry.gauge(prefix + "flying_bytes").set(static_cast<double>(of.flying_bytes));
   }
+}
+
+void record(metrics::Registry& registry, const ImpairmentCounters& done) {
+  registry.counter("link.impaired.lost").add(done.lost);
+  registry.counter("link.impaired.duplicated").add(done.duplicated);
+  registry.counter("link.impaired.reordered").add(done.reordered);
+  registry.counter("link.impaired.flipped").add(done.flipped);
+  registry.counter("link.impaired.held_back").add(done.held_back);
 }
 
 }  // namespace edgesplat::link

@@ -13,12 +13,26 @@ std::optional<Message> ReceiveSide::add(Lane lane, const ChunkHeader& header,
   const std::lock_guard lock(counters_mutex_);
   ++of(lane).chunks_received;
   of(lane).bytes_received += payload.size();
-  if (!plausible(header, payload.size())) {
-    ++of(lane).messages_corrupt;
+  if (!plausible(header, payload.size()) || chunk_crc32c(header, payload) != header.chunk_crc32c) {
+    ++of(lane).chunks_corrupt;
     return std::nullopt;
   }
-  auto message =
-      newest_only(lane) ? add_single(lane, header, payload) : add_to_train(lane, header, payload, now);
+  std::optional<Message> message;
+  if (lane == Lane::kAck) {  // nobody acknowledges acknowledgements
+    message = add_single(lane, header, payload);
+  } else {
+    Sender& from = sender({header.robot, header.session}, now);
+    auto& side = from.lanes[index_of(lane)];
+    if (!side) side.emplace(limits_.assembler);
+    side->newest_train = header.train;
+    side->newest_chunk = header.index;
+    side->newest_attempt = header.attempt;
+    side->newest_came = now;
+    from.ack_due = true;
+    if (!urgent(lane)) from.delivered_bytes += payload.size();
+    message =
+        reliable(lane) ? add_to_train(lane, *side, header, payload, now) : add_single(lane, header, payload);
+  }
   if (message) ++of(lane).messages_received;
   return message;
 }
@@ -32,27 +46,21 @@ std::optional<Message> ReceiveSide::add_single(Lane lane, const ChunkHeader& hea
   return Message{lane, header.robot, header.session, {payload.begin(), payload.end()}};
 }
 
-std::optional<Message> ReceiveSide::add_to_train(Lane lane, const ChunkHeader& header,
+std::optional<Message> ReceiveSide::add_to_train(Lane lane, LaneSide& side, const ChunkHeader& header,
                                                  std::span<const std::byte> payload, HostTime now) {
-  Sender& from = sender({lane, header.robot, header.session}, now);
-  if (!from.trains.is_new(header.train)) {
-    from.ack_due = true;  // the sender seems not to know
-    return std::nullopt;
-  }
-  const std::uint64_t lost_before = from.trains.lost_total();
-  TrainAssembler::Added added = from.assembler.add(header, payload, now);
-  for (const std::uint32_t train : added.lost_trains) from.trains.give_up(train);
+  if (!side.trains.is_new(header.train))
+    return std::nullopt;  // the sender seems not to know: acknowledged again
+  const std::uint64_t lost_before = side.trains.lost_total();
+  TrainAssembler::Added added = side.assembler.add(header, payload, now);
+  for (const std::uint32_t train : added.lost_trains) side.trains.give_up(train);
+  std::optional<Message> message;
   if (added.outcome == TrainAssembler::Outcome::kCorrupt) {
     ++of(lane).messages_corrupt;
-    return std::nullopt;
-  }
-  std::optional<Message> message;
-  if (added.outcome == TrainAssembler::Outcome::kComplete) {
-    from.trains.received(header.train);
-    from.ack_due = true;
+  } else if (added.outcome == TrainAssembler::Outcome::kComplete) {
+    side.trains.received(header.train);
     message = Message{lane, header.robot, header.session, std::move(added.message)};
   }
-  of(lane).messages_lost += from.trains.lost_total() - lost_before;
+  of(lane).messages_lost += side.trains.lost_total() - lost_before;
   return message;
 }
 
@@ -63,10 +71,13 @@ ReceiveSide::Sender& ReceiveSide::sender(const SenderKey& key, HostTime now) {
       const auto oldest =
           std::min_element(senders_.begin(), senders_.end(),
                            [](const auto& a, const auto& b) { return a.second.touched < b.second.touched; });
-      of(std::get<Lane>(oldest->first)).messages_lost += oldest->second.assembler.trains();
+      for (const Lane lane : kLanes) {
+        const auto& side = oldest->second.lanes[index_of(lane)];
+        if (side) of(lane).messages_lost += side->assembler.trains();
+      }
       senders_.erase(oldest);
     }
-    found = senders_.try_emplace(key, limits_.assembler).first;
+    found = senders_.try_emplace(key).first;
   }
   found->second.touched = now;
   return found->second;
@@ -75,22 +86,46 @@ ReceiveSide::Sender& ReceiveSide::sender(const SenderKey& key, HostTime now) {
 void ReceiveSide::expire(HostTime now) {
   const std::lock_guard lock(counters_mutex_);
   for (auto& [key, from] : senders_) {
-    const std::uint64_t lost_before = from.trains.lost_total();
-    for (const std::uint32_t train : from.assembler.expire(now)) {
-      from.trains.give_up(train);
-      from.ack_due = true;
+    for (const Lane lane : kLanes) {
+      auto& side = from.lanes[index_of(lane)];
+      if (!side) continue;
+      const std::uint64_t lost_before = side->trains.lost_total();
+      for (const std::uint32_t train : side->assembler.expire(now)) {
+        side->trains.give_up(train);
+        from.ack_due = true;
+      }
+      of(lane).messages_lost += side->trains.lost_total() - lost_before;
     }
-    of(std::get<Lane>(key)).messages_lost += from.trains.lost_total() - lost_before;
   }
 }
 
-std::vector<ReceiveSide::DueAck> ReceiveSide::take_due_acks() {
+Ack ReceiveSide::ack_of(Lane lane, const LaneSide& side) {
+  Ack ack;
+  ack.lane = lane;
+  ack.next_train = side.trains.next_train();
+  ack.received_bits = side.trains.received_bits();
+  ack.received_total = side.trains.received_total();
+  ack.newest_train = side.newest_train;
+  ack.newest_chunk = side.newest_chunk;
+  ack.newest_attempt = side.newest_attempt;
+  ack.newest_came_ns = to_ns(side.newest_came);
+  ack.partial = side.assembler.partial(kMaxPartialTrains);
+  return ack;
+}
+
+std::vector<ReceiveSide::DueAck> ReceiveSide::take_due_acks(HostTime now) {
   std::vector<DueAck> due;
   for (auto& [key, from] : senders_) {
     if (!std::exchange(from.ack_due, false)) continue;
-    const auto& [lane, robot, session] = key;
-    due.push_back({robot, Ack{lane, session, from.trains.next_train(), from.trains.received_bits(),
-                              from.trains.received_total()}});
+    AckReport report;
+    report.session = key.second;
+    report.delivered_bytes = from.delivered_bytes;
+    report.sent_ns = to_ns(now);
+    for (const Lane lane : kLanes) {
+      const auto& side = from.lanes[index_of(lane)];
+      if (side) report.lanes.push_back(ack_of(lane, *side));
+    }
+    due.push_back({key.first, std::move(report)});
   }
   return due;
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/link/ack.hpp"
-#include "common/link/train.hpp"
+#include "common/link/flight.hpp"
 #include "common/link/transport.hpp"
 
 #include <array>
@@ -13,48 +13,64 @@
 #include <mutex>
 #include <optional>
 #include <stop_token>
-#include <utility>
 
 namespace edgesplat::link {
 
 struct SendLimits {
   std::size_t messages = 64;                   ///< waiting per lane
   std::size_t bytes = std::size_t{64} << 20U;  ///< waiting per lane
+  FlightLimits flight;                         ///< begun and not acknowledged, per lane and robot
 };
 
 /// A set of lanes.
 using LaneMask = std::array<bool, kLaneCount>;
+inline constexpr LaneMask kAllLanes = [] {
+  LaneMask mask{};
+  for (bool& lane : mask) lane = true;
+  return mask;
+}();
 
-/// What waits in front of the network: bounded, by lane, the most urgent lane first, messages cut into chunks
-/// only as they are sent. Callers push and never wait; the link thread takes chunks and sleeps here when
-/// there is nothing to do. Thread-safe; next() and advance() belong to the link thread.
+/// What waits in front of the network and what is on its way: bounded, by lane, the most urgent lane first,
+/// messages cut into chunks only as they are sent, chunks of reliable lanes sent again until they are
+/// acknowledged. Callers push and never wait; the link's thread takes chunks and sleeps here when there is
+/// nothing to do. Thread-safe; next() and sent() belong to the link's thread.
 class SendQueue {
  public:
   struct Part {
     Lane lane = Lane::kHeartbeat;
-    ChunkHeader header;
-    std::span<const std::byte> payload;  ///< valid until advance(lane)
+    ChunkHeader header;                  ///< complete, with its CRC32C
+    std::span<const std::byte> payload;  ///< valid until sent()
   };
 
   SendQueue(std::uint64_t session, const SendLimits& limits) : session_(session), limits_(limits) {}
 
   bool push(Lane lane, map::RobotId robot, std::vector<std::byte> bytes);
-  /// The next chunk of the most urgent lane in `allowed` that has one; the same again until advance().
-  std::optional<Part> next(const LaneMask& allowed);
-  /// The chunk that next() gave for `lane` is sent.
-  void advance(Lane lane);
-  void count_write_timeout(Lane lane);
+  /// The next chunk of the most urgent lane in `allowed` that has one; the same again until sent().
+  std::optional<Part> next(const LaneMask& allowed, HostTime now);
+  /// The chunk that next() gave is with the network.
+  void sent(HostTime now);
+  void count_busy(Lane lane);
   void count_write_failure(Lane lane);
-  /// A new peer is there: the message under way starts over, since the peer lacks its beginning.
-  void rewind(Lane lane);
+  /// A new peer is there: what is under way starts over, since the peer lacks its beginning.
+  void start_over(Lane lane);
   /// `receiver_session`: of the end that acknowledges.
-  void on_ack(const Ack& ack, map::RobotId robot, std::uint64_t receiver_session);
+  Flight::News on_ack(const Ack& ack, nanoseconds came_after, map::RobotId robot,
+                      std::uint64_t receiver_session, HostTime now);
+  /// How many bytes of bulk lanes may be on their way to a robot (or from it to the server) at a time.
+  void set_window(map::RobotId robot, std::size_t bytes);
+
+  /// Bulk messages wait or have chunks that were never sent.
+  [[nodiscard]] bool bulk_waits(map::RobotId robot) const;
+  [[nodiscard]] std::size_t bulk_bytes_on_the_way(map::RobotId robot) const;
+  /// When next() may have something without anything happening before.
+  [[nodiscard]] std::optional<HostTime> next_timeout() const;
 
   /// Wakes wait_for_work(): something happened outside (data to read, a peer came or went).
   void wake();
-  /// Sleeps until next(allowed) has a chunk, wake() was called, `stop` is requested or the time is over.
-  void wait_for_work(const LaneMask& allowed, const std::stop_token& stop, nanoseconds timeout);
-  /// Waits until the lane is empty and everything of it acknowledged; false on time-out or close().
+  /// Sleeps until a message was pushed, wake() was called, `stop` is requested or the time is over.
+  void wait_for_work(const std::stop_token& stop, nanoseconds timeout);
+  /// Waits until the lane is empty and everything of it acknowledged or given up; false on time-out or
+  /// close().
   bool drain(Lane lane, nanoseconds timeout);
   void close();
   /// Only the fields about sending are filled in.
@@ -64,25 +80,38 @@ class SendQueue {
   struct Queued {
     map::RobotId robot;
     std::vector<std::byte> bytes;
-    ChunkHeader header;  ///< of the next chunk; numbered once begun
-    bool begun = false;
-  };
-  struct LaneState {
-    std::deque<Queued> queue;
-    std::size_t bytes = 0;
-    LaneCounters counters;
+    ChunkHeader header;
   };
   struct Peer {
+    explicit Peer(const FlightLimits& limits) : flight(limits) {}
+    Flight flight;
     std::uint32_t last_train = 0;
     std::uint64_t receiver_session = 0;
     std::uint64_t acked_before = 0;  ///< by the receiver's earlier sessions
     std::uint64_t acked_now = 0;
   };
-  [[nodiscard]] LaneState& state(Lane lane) { return lanes_[static_cast<std::size_t>(lane)]; }
-  [[nodiscard]] const LaneState& state(Lane lane) const { return lanes_[static_cast<std::size_t>(lane)]; }
-  [[nodiscard]] std::uint64_t acked(Lane lane) const;
-  void make_room(LaneState& lane_state, std::size_t bytes);
-  [[nodiscard]] bool has_work(const LaneMask& allowed) const;
+  struct LaneState {
+    std::deque<Queued> queue;  ///< waiting
+    std::size_t bytes = 0;
+    std::map<map::RobotId, Peer> peers;
+    std::optional<Queued> single;  ///< newest_only: what next() gave and sent() will remove
+    LaneCounters counters;
+  };
+  struct Chosen {
+    Lane lane;
+    map::RobotId robot;
+    std::size_t bytes;
+  };
+  [[nodiscard]] LaneState& state(Lane lane) { return lanes_[index_of(lane)]; }
+  [[nodiscard]] const LaneState& state(Lane lane) const { return lanes_[index_of(lane)]; }
+  Peer& peer(Lane lane, map::RobotId robot);
+  static void make_room(LaneState& lane_state, const SendLimits& limits, std::size_t bytes);
+  std::optional<Part> next_single(Lane lane);
+  std::optional<Part> next_of_flights(Lane lane, HostTime now);
+  std::optional<Part> begin_next(Lane lane, HostTime now);
+  Part chosen(Lane lane, map::RobotId robot, ChunkHeader header, std::span<const std::byte> payload);
+  [[nodiscard]] std::size_t window_left(Lane lane, map::RobotId robot) const;
+  [[nodiscard]] bool settled(Lane lane) const;
 
   const std::uint64_t session_;
   const SendLimits limits_;
@@ -90,7 +119,8 @@ class SendQueue {
   std::condition_variable_any work_;
   std::condition_variable_any drained_;
   std::array<LaneState, kLaneCount> lanes_;
-  std::map<std::pair<Lane, map::RobotId>, Peer> peers_;
+  std::map<map::RobotId, std::size_t> windows_;
+  std::optional<Chosen> chosen_;
   bool woken_ = false;
   bool closed_ = false;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/link/train.hpp"
 
+#include "common/base/bytes.hpp"
 #include "common/base/crc32c.hpp"
 #include "common/link/transport.hpp"
 
@@ -16,6 +17,19 @@ std::uint32_t chunk_count(std::size_t bytes) {
 std::span<const std::byte> chunk_at(std::span<const std::byte> message, std::uint32_t index) {
   const std::size_t first = index * kChunk_bytes;
   return message.subspan(first, std::min(kChunk_bytes, message.size() - first));
+}
+
+std::uint32_t chunk_crc32c(const ChunkHeader& header, std::span<const std::byte> payload) {
+  ByteWriter fields;
+  fields.write(header.robot.value);
+  fields.write(header.session);
+  fields.write(header.train);
+  fields.write(header.index);
+  fields.write(header.attempt);
+  fields.write(header.count);
+  fields.write(header.total_bytes);
+  fields.write(header.message_crc32c);
+  return crc32c(payload, crc32c(fields.bytes()));
 }
 
 bool plausible(const ChunkHeader& header, std::size_t payload_bytes) {
@@ -73,6 +87,22 @@ std::vector<std::uint32_t> TrainAssembler::expire(HostTime now) {
     drop(here);
   }
   return lost;
+}
+
+std::vector<PartialTrain> TrainAssembler::partial(std::size_t most) const {
+  std::vector<PartialTrain> parts;
+  for (const auto& [number, train] : open_) {
+    if (parts.size() >= most) break;
+    PartialTrain part;
+    part.train = number;
+    while (part.first_missing < train.pieces.size() && !train.pieces[part.first_missing].empty())
+      ++part.first_missing;
+    for (std::uint32_t i = 0; i < 64 && part.first_missing + i < train.pieces.size(); ++i) {
+      if (!train.pieces[part.first_missing + i].empty()) part.came_bits |= std::uint64_t{1} << i;
+    }
+    parts.push_back(part);
+  }
+  return parts;
 }
 
 void TrainAssembler::drop(Trains::iterator train) {

@@ -73,24 +73,80 @@ TEST(ReceivedTrains, ALateReceiverDoesNotCountWhatWasBefore) {
   EXPECT_EQ(trains.received_total(), 1U);
 }
 
-TEST(Ack, RoundTrip) {
-  const Ack ack{Lane::kDelta, 0x1122334455667788ULL, 42, 0b101, 77};
-  const auto back = decode_ack(encode_ack(ack));
-  ASSERT_TRUE(back.has_value());
-  EXPECT_EQ(back->lane, Lane::kDelta);
-  EXPECT_EQ(back->session, ack.session);
-  EXPECT_EQ(back->next_train, 42U);
-  EXPECT_EQ(back->received_bits, 0b101U);
-  EXPECT_EQ(back->received_total, 77U);
+AckReport sample_report() {
+  Ack delta;
+  delta.lane = Lane::kDelta;
+  delta.next_train = 42;
+  delta.received_bits = 0b101;
+  delta.received_total = 77;
+  delta.newest_train = 45;
+  delta.newest_chunk = 3;
+  delta.newest_attempt = 2;
+  delta.newest_came_ns = -5;
+  delta.partial = {{43, 2, 0b1010}, {46, 0, 0b10}};
+  AckReport report;
+  report.session = 0x1122334455667788ULL;
+  report.delivered_bytes = 123456;
+  report.sent_ns = 99;
+  report.lanes = {Ack{}, delta};
+  return report;
 }
 
-TEST(Ack, RefusesEveryTruncationAndAWrongLane) {
-  auto bytes = encode_ack(Ack{});
+TEST(Ack, RoundTrip) {
+  const AckReport report = sample_report();
+  const auto back = decode_acks(encode_acks(report));
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(back->session, report.session);
+  EXPECT_EQ(back->delivered_bytes, 123456U);
+  EXPECT_EQ(back->sent_ns, 99);
+  ASSERT_EQ(back->lanes.size(), 2U);
+  const Ack& delta = back->lanes[1];
+  EXPECT_EQ(delta.lane, Lane::kDelta);
+  EXPECT_EQ(delta.next_train, 42U);
+  EXPECT_EQ(delta.received_bits, 0b101U);
+  EXPECT_EQ(delta.received_total, 77U);
+  EXPECT_EQ(delta.newest_train, 45U);
+  EXPECT_EQ(delta.newest_chunk, 3U);
+  EXPECT_EQ(delta.newest_attempt, 2U);
+  EXPECT_EQ(delta.newest_came_ns, -5);
+  ASSERT_EQ(delta.partial.size(), 2U);
+  EXPECT_EQ(delta.partial[1].train, 46U);
+  EXPECT_EQ(delta.partial[0].first_missing, 2U);
+  EXPECT_EQ(delta.partial[0].came_bits, 0b1010U);
+}
+
+TEST(Ack, RefusesEveryTruncationAndEveryTail) {
+  auto bytes = encode_acks(sample_report());
   for (std::size_t n = 0; n < bytes.size(); ++n) {
-    EXPECT_FALSE(decode_ack(std::span<const std::byte>(bytes).first(n)).has_value());
+    EXPECT_FALSE(decode_acks(std::span<const std::byte>(bytes).first(n)).has_value()) << n;
   }
-  bytes[6] = std::byte{9};
-  EXPECT_FALSE(decode_ack(bytes).has_value());
+  bytes.push_back(std::byte{0});
+  EXPECT_FALSE(decode_acks(bytes).has_value());
+  EXPECT_FALSE(decode_acks(std::vector<std::byte>(1U << 20U)).has_value());
+}
+
+TEST(Ack, RefusesAnOlderVersionAWrongLaneAndOneNamedTwice) {
+  auto bytes = encode_acks(sample_report());
+  bytes[4] = std::byte{1};
+  EXPECT_FALSE(decode_acks(bytes).has_value());
+  bytes = encode_acks(sample_report());
+  bytes[31] = std::byte{kLaneCount};  // the first lane
+  EXPECT_FALSE(decode_acks(bytes).has_value());
+  AckReport twice = sample_report();
+  twice.lanes.push_back(twice.lanes[0]);
+  EXPECT_FALSE(decode_acks(encode_acks(twice)).has_value());
+}
+
+TEST(Ack, FlippedBitsAreRefusedOrReadAsAnotherReport) {
+  const auto bytes = encode_acks(sample_report());
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    auto damaged = bytes;
+    damaged[bit / 8] ^= std::byte{1} << (bit % 8);
+    const auto back = decode_acks(damaged);
+    if (back) {
+      EXPECT_LE(back->lanes.size(), kLaneCount);
+    }
+  }
 }
 
 TEST(Heartbeat, RoundTrip) {

@@ -13,7 +13,8 @@ namespace {
 
 using test::message_bytes;
 
-constexpr LaneMask kAll = {true, true, true, true, true};
+constexpr LaneMask kAll = kAllLanes;
+constexpr HostTime kNow{};
 constexpr map::RobotId kRobot{1};
 
 const LaneCounters& of(const LinkCounters& counters, Lane lane) {
@@ -23,12 +24,12 @@ const LaneCounters& of(const LinkCounters& counters, Lane lane) {
 TEST(SendQueue, UrgentLanesOvertakeATrainBetweenItsChunks) {
   SendQueue queue(7, {});
   queue.push(Lane::kKeyframe, kRobot, message_bytes(3 * kChunk_bytes));
-  ASSERT_EQ(queue.next(kAll)->lane, Lane::kKeyframe);
-  queue.advance(Lane::kKeyframe);
+  ASSERT_EQ(queue.next(kAll, kNow)->lane, Lane::kKeyframe);
+  queue.sent(kNow);
   queue.push(Lane::kHeartbeat, kRobot, message_bytes(10));
-  ASSERT_EQ(queue.next(kAll)->lane, Lane::kHeartbeat);
-  queue.advance(Lane::kHeartbeat);
-  const auto part = queue.next(kAll);
+  ASSERT_EQ(queue.next(kAll, kNow)->lane, Lane::kHeartbeat);
+  queue.sent(kNow);
+  const auto part = queue.next(kAll, kNow);
   ASSERT_TRUE(part);
   EXPECT_EQ(part->lane, Lane::kKeyframe);
   EXPECT_EQ(part->header.index, 1U);
@@ -38,30 +39,31 @@ TEST(SendQueue, UrgentLanesOvertakeATrainBetweenItsChunks) {
 TEST(SendQueue, UnreachableLanesWait) {
   SendQueue queue(7, {});
   queue.push(Lane::kKeyframe, kRobot, message_bytes(10));
-  EXPECT_FALSE(queue.next(LaneMask{}).has_value());
-  EXPECT_TRUE(queue.next(kAll).has_value());
+  EXPECT_FALSE(queue.next(LaneMask{}, kNow).has_value());
+  EXPECT_TRUE(queue.next(kAll, kNow).has_value());
 }
 
 TEST(SendQueue, AFullLaneDropsItsOldestAndNeverWhatIsUnderWay) {
-  SendQueue queue(7, {3, 1U << 20U});
+  SendQueue queue(7, {3, 1U << 20U, {}});
   queue.push(Lane::kKeyframe, kRobot, message_bytes(2 * kChunk_bytes, 0));
-  (void)queue.next(kAll);
-  queue.advance(Lane::kKeyframe);
+  (void)queue.next(kAll, kNow);
+  queue.sent(kNow);
   for (std::uint32_t i = 1; i <= 10; ++i)
     EXPECT_TRUE(queue.push(Lane::kKeyframe, kRobot, message_bytes(10, i)));
   const auto counters = queue.counters();
   EXPECT_EQ(of(counters, Lane::kKeyframe).queued_messages, 3U);
-  EXPECT_EQ(of(counters, Lane::kKeyframe).messages_dropped, 8U);
-  EXPECT_EQ(queue.next(kAll)->header.index, 1U);  // still the first train
-  queue.advance(Lane::kKeyframe);
-  const auto part = queue.next(kAll);
+  EXPECT_EQ(of(counters, Lane::kKeyframe).flying_messages, 1U);
+  EXPECT_EQ(of(counters, Lane::kKeyframe).messages_dropped, 7U);
+  EXPECT_EQ(queue.next(kAll, kNow)->header.index, 1U);  // still the first train
+  queue.sent(kNow);
+  const auto part = queue.next(kAll, kNow);
   EXPECT_EQ(part->header.train, 2U);  // what was shed leaves no gap in the numbers
-  const auto ninth = message_bytes(10, 9);
-  EXPECT_TRUE(std::equal(part->payload.begin(), part->payload.end(), ninth.begin(), ninth.end()));
+  const auto eighth = message_bytes(10, 8);
+  EXPECT_TRUE(std::equal(part->payload.begin(), part->payload.end(), eighth.begin(), eighth.end()));
 }
 
 TEST(SendQueue, BytesAreBoundedToo) {
-  SendQueue queue(7, {1000, 1000});
+  SendQueue queue(7, {1000, 1000, {}});
   for (std::uint32_t i = 0; i < 50; ++i) queue.push(Lane::kKeyframe, kRobot, message_bytes(400));
   EXPECT_LE(of(queue.counters(), Lane::kKeyframe).queued_bytes, 1000U);
   EXPECT_FALSE(queue.push(Lane::kKeyframe, kRobot, message_bytes(1001)));
@@ -79,39 +81,71 @@ TEST(SendQueue, OnlyTheNewestHeartbeatWaits) {
   EXPECT_EQ(of(queue.counters(), Lane::kHeartbeat).queued_bytes, 16U);
 }
 
-TEST(SendQueue, RewindStartsTheMessageOver) {
+TEST(SendQueue, ANewPeerGetsTheMessageFromItsBeginning) {
   SendQueue queue(7, {});
   queue.push(Lane::kKeyframe, kRobot, message_bytes(3 * kChunk_bytes));
-  (void)queue.next(kAll);
-  queue.advance(Lane::kKeyframe);
-  queue.rewind(Lane::kKeyframe);
-  EXPECT_EQ(queue.next(kAll)->header.index, 0U);
-  EXPECT_EQ(queue.next(kAll)->header.train, 1U);
+  (void)queue.next(kAll, kNow);
+  queue.sent(kNow);
+  queue.start_over(Lane::kKeyframe);
+  EXPECT_EQ(queue.next(kAll, kNow)->header.index, 0U);
+  EXPECT_EQ(queue.next(kAll, kNow)->header.train, 1U);
+}
+
+Ack keyframes_received(std::uint32_t count) {
+  Ack ack;
+  ack.next_train = count + 1;
+  ack.received_total = count;
+  return ack;
 }
 
 TEST(SendQueue, DrainWaitsForTheLastAcknowledgement) {
   SendQueue queue(7, {});
   queue.push(Lane::kKeyframe, kRobot, message_bytes(10));
-  (void)queue.next(kAll);
-  queue.advance(Lane::kKeyframe);
+  (void)queue.next(kAll, kNow);
+  queue.sent(kNow);
   EXPECT_FALSE(queue.drain(Lane::kKeyframe, std::chrono::milliseconds(1)));
-  queue.on_ack(Ack{Lane::kKeyframe, 8, 2, 0, 1}, kRobot, 100);  // another session's: not ours
+  (void)queue.on_ack(keyframes_received(1), {}, map::RobotId{2}, 100, kNow);  // another robot's: not this one
   EXPECT_FALSE(queue.drain(Lane::kKeyframe, std::chrono::milliseconds(1)));
-  std::jthread receiver([&] { queue.on_ack(Ack{Lane::kKeyframe, 7, 2, 0, 1}, kRobot, 100); });
+  std::jthread receiver([&] { (void)queue.on_ack(keyframes_received(1), {}, kRobot, 100, kNow); });
   EXPECT_TRUE(queue.drain(Lane::kKeyframe, std::chrono::seconds(10)));
   EXPECT_EQ(of(queue.counters(), Lane::kKeyframe).messages_acked, 1U);
 }
 
-TEST(SendQueue, AcknowledgementsAddUpOverARestartOfTheReceiver) {
+TEST(SendQueue, ARestartedReceiverGetsWhatIsNotAcknowledgedAndAcknowledgementsAddUp) {
   SendQueue queue(7, {});
   for (int i = 0; i < 5; ++i) {
     queue.push(Lane::kKeyframe, kRobot, message_bytes(10));
-    (void)queue.next(kAll);
-    queue.advance(Lane::kKeyframe);
+    (void)queue.next(kAll, kNow);
+    queue.sent(kNow);
   }
-  queue.on_ack(Ack{Lane::kKeyframe, 7, 3, 0, 2}, kRobot, 100);
-  queue.on_ack(Ack{Lane::kKeyframe, 7, 1, 0, 3}, kRobot, 200);
+  (void)queue.on_ack(keyframes_received(2), {}, kRobot, 100, kNow);
+  (void)queue.on_ack(keyframes_received(0), {}, kRobot, 200, kNow);
+  for (std::uint32_t train = 3; train <= 5; ++train) {
+    const auto part = queue.next(kAll, kNow);
+    ASSERT_TRUE(part.has_value());
+    EXPECT_EQ(part->header.train, train);
+    queue.sent(kNow);
+  }
+  Ack ack = keyframes_received(5);
+  ack.received_total = 3;
+  (void)queue.on_ack(ack, {}, kRobot, 200, kNow);
   EXPECT_EQ(of(queue.counters(), Lane::kKeyframe).messages_acked, 5U);
+}
+
+TEST(SendQueue, TheWindowIsSharedByBulkLanesAndNotByUrgentOnes) {
+  SendQueue queue(7, {});
+  queue.set_window(kRobot, 2 * kChunk_bytes);
+  queue.push(Lane::kKeyframe, kRobot, message_bytes(5 * kChunk_bytes));
+  queue.push(Lane::kSpool, kRobot, message_bytes(kChunk_bytes));
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(queue.next(kAll, kNow).has_value());
+    queue.sent(kNow);
+  }
+  EXPECT_FALSE(queue.next(kAll, kNow).has_value());
+  EXPECT_TRUE(queue.bulk_waits(kRobot));
+  EXPECT_EQ(queue.bulk_bytes_on_the_way(kRobot), 2 * kChunk_bytes);
+  queue.push(Lane::kRequest, kRobot, message_bytes(10));
+  EXPECT_EQ(queue.next(kAll, kNow)->lane, Lane::kRequest);
 }
 
 TEST(SendQueue, CloseEndsWaiting) {
