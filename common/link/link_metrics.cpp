@@ -40,12 +40,15 @@ void record(metrics::Registry& registry, const LinkCounters& counters) {
   }
 }
 
-void record(metrics::Registry& registry, const ImpairmentCounters& done) {
-  registry.counter("link.impaired.lost").add(done.lost);
-  registry.counter("link.impaired.duplicated").add(done.duplicated);
-  registry.counter("link.impaired.reordered").add(done.reordered);
-  registry.counter("link.impaired.flipped").add(done.flipped);
-  registry.counter("link.impaired.held_back").add(done.held_back);
+void record(metrics::Registry& registry, const Transport& transport) {
+  record(registry, transport.counters());
+  const auto done = transport.impairments();
+  if (!done) return;
+  registry.counter("link.impaired.lost").add(done->lost);
+  registry.counter("link.impaired.duplicated").add(done->duplicated);
+  registry.counter("link.impaired.reordered").add(done->reordered);
+  registry.counter("link.impaired.flipped").add(done->flipped);
+  registry.counter("link.impaired.held_back").add(done->held_back);
 }
 
 }  // namespace edgesplat::link

@@ -9,6 +9,7 @@
 #include <utility>
 
 namespace edgesplat::app {
+
 Result<std::unique_ptr<MapShare>> MapShare::create(const robot_config::RobotConfig& config,
                                                    const Clock& clock) {
   EDGESPLAT_TRY(const std::shared_ptr<link::DdsDomain> domain, link::DdsDomain::open(config.server.link));
@@ -99,7 +100,7 @@ void MapShare::publish_counters(metrics::Registry& metrics) const {
   std::uint64_t bytes_up = 0;
   std::uint64_t bytes_down = 0;
   const link::LinkCounters lanes = transport_->counters();
-  link::record(metrics, lanes);
+  link::record(metrics, *transport_);
   for (const link::Lane lane : link::kLanes) {
     const link::LaneCounters& counters = lanes[static_cast<std::size_t>(lane)];
     bytes_up += counters.bytes_sent;

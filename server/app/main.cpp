@@ -71,7 +71,7 @@ Status run(const app::Options& options) {
                      "domain", options.config.link.domain, "out", folder.string());
   run_until_end(server, options, signals);
   server.finish(std::chrono::seconds(2));
-  link::record(registry, transport->counters());
+  link::record(registry, *transport);
   EDGESPLAT_TRY_STATUS(io::write_file_atomically(folder / "metrics.json", registry.to_json()));
   for (const app::MapStatus& status : server.status()) {
     EDGESPLAT_LOG_INFO("server", "map", "robot", status.robot.value, "gaussians", status.gaussians, "seq",

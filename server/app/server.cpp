@@ -37,7 +37,7 @@ bool Server::receive_step(const std::stop_token& stop) {
     send(message->robot, stage_.answer(*message));
     (void)queue_.push(Job(message->robot));
   }
-  if (message->lane != link::Lane::kKeyframe)
+  if (message->lane != link::Lane::kKeyframe && message->lane != link::Lane::kSpool)
     return true;  // the robots' heartbeats: nothing here depends on them yet
   const HostTime received = clock_.now();
   last_keyframe_ns_ = to_ns(received);
@@ -74,8 +74,8 @@ void Server::send_heartbeats() {
     heartbeat.epoch = status.epoch;
     heartbeat.seq = status.seq;
     heartbeat.map_hash = status.map_hash;
-    heartbeat.queued_messages = static_cast<std::uint32_t>(down.queued_messages);
-    heartbeat.queued_bytes = down.queued_bytes;
+    heartbeat.queued_messages = static_cast<std::uint32_t>(down.queued_messages + down.flying_messages);
+    heartbeat.queued_bytes = down.queued_bytes + down.flying_bytes;
     (void)transport_.send(link::Lane::kHeartbeat, status.robot, link::encode_heartbeat(heartbeat));
   }
 }
