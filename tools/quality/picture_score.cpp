@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/quality/picture_score.hpp"
+
+#include "kernels/train/image_measures.hpp"
+
+#include <vector>
+
+namespace edgesplat::quality {
+namespace {
+
+std::vector<float> to_floats(const sensor::ImageRgb8& picture) {
+  std::vector<float> values(picture.values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(picture.values[i]) / 255.0F;
+  return values;
+}
+
+/// LPIPS knows no weights: there the drawn picture takes over the real one.
+sensor::ImageRgb8 equal_where_nothing_counts(sensor::ImageRgb8 drawn, const sensor::ImageRgb8& real,
+                                             std::span<const float> weight) {
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    if (weight[i] > 0.0F) continue;
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) drawn.values[k] = real.values[k];
+  }
+  return drawn;
+}
+
+}  // namespace
+
+Result<PictureScore> score_picture(const sensor::ImageRgb8& drawn, const sensor::ImageRgb8& real,
+                                   std::span<const float> weight, Lpips* lpips) {
+  const auto a = to_floats(drawn), b = to_floats(real);
+  const train::ColourPair pair{drawn.width_px, drawn.height_px, a, b, weight};
+  if (!pair.consistent() || real.width_px != drawn.width_px) {
+    return fail(Errc::kInvalidArgument, "pictures of different sizes cannot be compared");
+  }
+  PictureScore score{train::psnr_db(pair), train::ssim(pair), std::nullopt};
+  if (lpips != nullptr) {
+    EDGESPLAT_TRY(score.lpips, lpips->distance(equal_where_nothing_counts(drawn, real, weight), real));
+  }
+  return score;
+}
+
+}  // namespace edgesplat::quality
