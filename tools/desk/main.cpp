@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   desk::add_report_verb(app, context);
   desk::add_simulate_verb(app, context);
   desk::add_stream_verb(app, context);
+  desk::add_train_verb(app, context);
 
   try {
     app.parse(argc, argv);

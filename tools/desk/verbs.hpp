@@ -28,5 +28,6 @@ void add_replay_verb(CLI::App& app, VerbContext& context);
 void add_report_verb(CLI::App& app, VerbContext& context);
 void add_simulate_verb(CLI::App& app, VerbContext& context);
 void add_stream_verb(CLI::App& app, VerbContext& context);
+void add_train_verb(CLI::App& app, VerbContext& context);
 
 }  // namespace edgesplat::desk
