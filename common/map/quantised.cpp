@@ -12,18 +12,13 @@ namespace edgesplat::map {
 namespace {
 
 constexpr double kSqrtHalf = 0.70710678118654752440;
-constexpr double kRotationSteps = 511.0;  // for sqrt(1/2)
-constexpr double kRotationMiddle = 512.0;
-constexpr double kLogScaleSteps = 64.0;
+constexpr double kRotationSteps = 255.0;  // for sqrt(1/2)
+constexpr double kRotationMiddle = 256.0;
+constexpr double kLogScaleSteps = 16.0;
 constexpr double kLogScaleLow = -10.0;
 constexpr double kAlphaSteps = 256.0;
-constexpr double kColourSteps = 512.0;
+constexpr double kColourSteps = 256.0;
 constexpr double kColourLow = -0.5;
-constexpr std::size_t kLogScale = 3;
-constexpr std::size_t kRotation = 6;
-constexpr std::size_t kLargest = 9;
-constexpr std::size_t kOpacity = 10;
-constexpr std::size_t kColour = 11;
 
 std::uint16_t level(double value, double highest) {
   return static_cast<std::uint16_t>(std::clamp(std::floor(value + 0.5), 0.0, highest));
@@ -49,18 +44,18 @@ void encode_rotation(std::array<double, 4> q, Channels& channels) {
     if (std::abs(q[k]) > std::abs(q[largest])) largest = k;
   }
   const double sign = q[largest] < 0.0 ? -1.0 : 1.0;
-  std::size_t to = kRotation;
+  std::size_t to = kRotationAt;
   for (std::size_t k = 0; k < 4; ++k) {
     if (k == largest) continue;
-    channels[to++] = level(sign * q[k] * (kRotationSteps / kSqrtHalf) + kRotationMiddle, 1023.0);
+    channels[to++] = level(sign * q[k] * (kRotationSteps / kSqrtHalf) + kRotationMiddle, 511.0);
   }
-  channels[kLargest] = static_cast<std::uint16_t>(largest);
+  channels[kLargestAt] = static_cast<std::uint16_t>(largest);
 }
 
 std::array<double, 4> decode_rotation(const Channels& channels) {
-  const std::size_t largest = channels[kLargest] & 3U;
+  const std::size_t largest = channels[kLargestAt] & 3U;
   std::array<double, 4> q{};
-  std::size_t from = kRotation;
+  std::size_t from = kRotationAt;
   double sum = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {
     if (k == largest) continue;
@@ -158,12 +153,12 @@ void append_quantised(const gaussian::GaussianCloud& cloud, std::size_t row, con
   Channels channels{};
   encode_pose(chunk, {{mean_m[0], mean_m[1], mean_m[2]}, {quat[0], quat[1], quat[2], quat[3]}}, channels);
   for (std::size_t k = 0; k < 3; ++k) {
-    channels[kLogScale + k] = level((cloud.log_scales[3 * row + k] - kLogScaleLow) * kLogScaleSteps, 1023.0);
+    channels[kLogScaleAt + k] = level((cloud.log_scales[3 * row + k] - kLogScaleLow) * kLogScaleSteps, 255.0);
     const double rgb = 0.5 + static_cast<double>(gaussian::GaussianCloud::kShC0) * sh[k];
-    channels[kColour + k] = level((rgb - kColourLow) * kColourSteps, 1023.0);
+    channels[kColourAt + k] = level((rgb - kColourLow) * kColourSteps, 511.0);
   }
   const double alpha = 1.0 / (1.0 + std::exp(-static_cast<double>(cloud.opacity_logits[row])));
-  channels[kOpacity] = level(alpha * kAlphaSteps - 0.5, kAlphaSteps - 1.0);
+  channels[kOpacityAt] = level(alpha * kAlphaSteps - 0.5, kAlphaSteps - 1.0);
   rows.ids.push_back(cloud.ids[row]);
   rows.chunks.push_back(chunk);
   rows.channels.push_back(channels);
@@ -185,13 +180,11 @@ gaussian::GaussianCloud dequantise(const QuantisedRows& rows) {
     for (std::size_t k = 0; k < 4; ++k) cloud.quats_xyzw[4 * row + k] = static_cast<float>(pose.quat_xyzw[k]);
     for (std::size_t k = 0; k < 3; ++k) {
       cloud.means_m[3 * row + k] = static_cast<float>(pose.mean_m[k]);
-      cloud.log_scales[3 * row + k] =
-          static_cast<float>(channels[kLogScale + k] / kLogScaleSteps + kLogScaleLow);
-      const double rgb = channels[kColour + k] / kColourSteps + kColourLow;
-      sh[k] = static_cast<float>((rgb - 0.5) / static_cast<double>(gaussian::GaussianCloud::kShC0));
+      cloud.log_scales[3 * row + k] = decode_log_scale(channels[kLogScaleAt + k]);
+      sh[k] = (decode_colour(channels[kColourAt + k]) - 0.5F) / gaussian::GaussianCloud::kShC0;
     }
-    const double alpha = (channels[kOpacity] + 0.5) / kAlphaSteps;
-    cloud.opacity_logits[row] = static_cast<float>(std::log(alpha / (1.0 - alpha)));
+    const float alpha = decode_alpha(channels[kOpacityAt]);
+    cloud.opacity_logits[row] = std::log(alpha / (1.0F - alpha));
     for (std::size_t i = 0; i < rest_each; ++i)
       sh[3 + i] = static_cast<float>(rows.sh_rest[rest_each * row + i]) * kShStep;
   }

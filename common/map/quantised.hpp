@@ -37,15 +37,15 @@ struct ChannelLayout {
   std::size_t count;
   unsigned bits;
 };
-/// Position: steps of 12/65536 m from the chunk's lower corner less its slack. Log scale: 1/64 from -10 on.
-/// Rotation: the three smaller quaternion components in steps of sqrt(1/2)/511, then the largest's index.
-/// Opacity: 256 equal intervals of alpha. Colour: rgb in 1/512 from -0.5 on.
+/// Position: steps of 12/65536 m from the chunk's lower corner less its slack. Log scale: 1/16 from -10 on.
+/// Rotation: the three smaller quaternion components in steps of sqrt(1/2)/255, then the largest's index.
+/// Opacity: 256 equal intervals of alpha. Colour: rgb in 1/256 from -0.5 on.
 inline constexpr std::array<ChannelLayout, 6> kChannelLayouts = {{{Field::kPosition, 0, 3, 16},
-                                                                  {Field::kLogScale, 3, 3, 10},
-                                                                  {Field::kRotation, 6, 3, 10},
+                                                                  {Field::kLogScale, 3, 3, 8},
+                                                                  {Field::kRotation, 6, 3, 9},
                                                                   {Field::kRotation, 9, 1, 2},
                                                                   {Field::kOpacity, 10, 1, 8},
-                                                                  {Field::kColour, 11, 3, 10}}};
+                                                                  {Field::kColour, 11, 3, 9}}};
 inline constexpr double kPositionStep_m = 12.0 / 65536.0;
 /// Step of the SH coefficients above degree 0; they reach 127 steps either way.
 inline constexpr float kShStep = 1.0F / 64.0F;
@@ -60,6 +60,24 @@ struct DecodedPose {
 /// every machine comes to the same integers. The mean must lie in the chunk or its slack (else it is
 /// clamped).
 void encode_pose(const ChunkId& chunk, const DecodedPose& pose, Channels& channels);
+
+/// First channel of each field.
+inline constexpr std::size_t kLogScaleAt = 3;
+inline constexpr std::size_t kRotationAt = 6;
+inline constexpr std::size_t kLargestAt = 9;
+inline constexpr std::size_t kOpacityAt = 10;
+inline constexpr std::size_t kColourAt = 11;
+[[nodiscard]] constexpr float decode_log_scale(std::uint16_t level) {
+  return static_cast<float>(level) / 16.0F - 10.0F;
+}
+/// Opacity, 0..1 exclusive.
+[[nodiscard]] constexpr float decode_alpha(std::uint16_t level) {
+  return (static_cast<float>(level) + 0.5F) / 256.0F;
+}
+/// sRGB of SH degree 0.
+[[nodiscard]] constexpr float decode_colour(std::uint16_t level) {
+  return static_cast<float>(level) / 256.0F - 0.5F;
+}
 
 /// N Gaussians as they travel and as both ends keep them: integers, so that equal means equal.
 struct QuantisedRows {

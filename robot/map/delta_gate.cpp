@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kFormerMaps = 8;
 constexpr double kTailPatience = 3.0;
+constexpr std::size_t kMaxGaps = 8;  // asked for at a time
 
 }  // namespace
 
@@ -38,7 +39,7 @@ DeltaGate::Verdict DeltaGate::hold(const DeltaHeader& header, std::span<const st
   note_gap(now);
   if (held_.size() >= config_.max_held_deltas || held_bytes_ + bytes.size() > config_.max_held_bytes)
     return Verdict::kNeedsReset;
-  held_.emplace(header.seq, Held{header, {bytes.begin(), bytes.end()}});
+  held_.emplace(header.seq, Held{header, {bytes.begin(), bytes.end()}, now, {}});
   held_bytes_ += bytes.size();
   return Verdict::kHeld;
 }
@@ -62,7 +63,7 @@ void DeltaGate::applied(const DeltaHeader& header, HostTime now) {
     snapshot_asked_.reset();
   }
   forget_settled();
-  resend_asked_.reset();
+  tail_asked_.reset();
   gap_since_.reset();
   if (!held_.empty() || server_seq_ > position_.seq) gap_since_ = now;
 }
@@ -97,29 +98,52 @@ void DeltaGate::server_at(const MapPosition& position, HostTime now) {
   if (server_seq_ > position_.seq) note_gap(now);
 }
 
-std::optional<MapRequest> DeltaGate::request(HostTime now) {
-  const nanoseconds gap = gap_since_ ? now - *gap_since_ : nanoseconds(0);
-  // Nothing came after what is missing: it may be on its way still.
-  const double patience_s = (held_.empty() ? kTailPatience : 1.0) * config_.resend_after_s;
-  const bool overdue = gap_since_ && gap >= from_seconds(patience_s);
-  if (gap_since_ && gap >= from_seconds(config_.snapshot_after_s)) wants_snapshot_ = true;
-  if (overdue && newer_epoch_) wants_snapshot_ = true;
+MapRequest DeltaGate::request_of(RequestKind kind, std::uint64_t after, std::uint64_t until) const {
   MapRequest request;
+  request.kind = kind;
   request.epoch = position_.epoch;
-  request.seq = position_.seq;
-  if (wants_snapshot_) {
-    if (snapshot_asked_ && now - *snapshot_asked_ < from_seconds(config_.snapshot_again_after_s))
-      return std::nullopt;
-    snapshot_asked_ = now;
-    request.kind = RequestKind::kSnapshot;
-    return request;
-  }
-  if (!overdue) return std::nullopt;
-  if (resend_asked_ && now - *resend_asked_ < from_seconds(2 * config_.resend_after_s)) return std::nullopt;
-  resend_asked_ = now;
-  request.kind = RequestKind::kResend;
-  request.until_seq = held_.empty() ? server_seq_ : held_.begin()->first - 1;
+  request.seq = after;
+  request.until_seq = until;
   return request;
+}
+
+bool DeltaGate::snapshot_due(HostTime now) {
+  if (gap_since_) {
+    const nanoseconds gap = now - *gap_since_;
+    if (gap >= from_seconds(config_.snapshot_after_s)) wants_snapshot_ = true;
+    if (newer_epoch_ && gap >= from_seconds(kTailPatience * config_.resend_after_s)) wants_snapshot_ = true;
+  }
+  if (!wants_snapshot_) return false;
+  return !snapshot_asked_ || now - *snapshot_asked_ >= from_seconds(config_.snapshot_again_after_s);
+}
+
+bool DeltaGate::resend_due(HostTime since, double patience_s, std::optional<HostTime>& asked,
+                           HostTime now) const {
+  if (now - since < from_seconds(patience_s)) return false;
+  if (asked && now - *asked < from_seconds(2 * config_.resend_after_s)) return false;
+  asked = now;
+  return true;
+}
+
+std::vector<MapRequest> DeltaGate::requests(HostTime now) {
+  if (snapshot_due(now)) {
+    snapshot_asked_ = now;
+    return {request_of(RequestKind::kSnapshot, position_.seq, 0)};
+  }
+  if (wants_snapshot_ || !gap_since_) return {};
+  std::vector<MapRequest> requests;
+  std::uint64_t last = position_.seq;
+  for (auto& [seq, held] : held_) {
+    const bool gap = seq > last + 1;
+    if (gap && requests.size() < kMaxGaps && resend_due(held.since, config_.resend_after_s, held.asked, now))
+      requests.push_back(request_of(RequestKind::kResend, last, seq - 1));
+    last = seq;
+  }
+  // Nothing came after what is missing at the end: it may be on its way still.
+  const double tail_patience_s = kTailPatience * config_.resend_after_s;
+  if (server_seq_ > last && resend_due(*gap_since_, tail_patience_s, tail_asked_, now))
+    requests.push_back(request_of(RequestKind::kResend, last, server_seq_));
+  return requests;
 }
 
 }  // namespace edgesplat::map

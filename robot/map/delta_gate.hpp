@@ -53,9 +53,9 @@ class DeltaGate {
   void server_at(const MapPosition& position, HostTime now);
   /// The map turned out to be wrong, or a checked delta could not be applied.
   void ask_snapshot() { wants_snapshot_ = true; }
-  /// What to ask for now; kind, epoch and numbers are filled in. Nothing while an earlier request may still
-  /// be answered.
-  std::optional<MapRequest> request(HostTime now);
+  /// What to ask for now, a request for each gap; kind, epoch and numbers are filled in. Nothing while
+  /// earlier requests may still be answered.
+  std::vector<MapRequest> requests(HostTime now);
 
   [[nodiscard]] const MapPosition& position() const { return position_; }
   [[nodiscard]] std::size_t held() const { return held_.size(); }
@@ -65,11 +65,17 @@ class DeltaGate {
   struct Held {
     DeltaHeader header;
     std::vector<std::byte> bytes;
+    HostTime since{};
+    std::optional<HostTime> asked;  ///< for what is missing before it
   };
   [[nodiscard]] bool begins_anew(const DeltaHeader& header) const;
   Verdict hold(const DeltaHeader& header, std::span<const std::byte> bytes, HostTime now);
   void forget_settled();
   void note_gap(HostTime now);
+  [[nodiscard]] bool snapshot_due(HostTime now);
+  [[nodiscard]] bool resend_due(HostTime since, double patience_s, std::optional<HostTime>& asked,
+                                HostTime now) const;
+  [[nodiscard]] MapRequest request_of(RequestKind kind, std::uint64_t after, std::uint64_t until) const;
 
   const DeltaGateConfig config_;
   bool started_ = false;
@@ -78,10 +84,10 @@ class DeltaGate {
   std::deque<MapUuid> former_maps_;     ///< the last few
   std::map<std::uint64_t, Held> held_;  ///< by seq, of the present map
   std::size_t held_bytes_ = 0;
-  std::uint64_t server_seq_ = 0;       ///< as last said
-  std::optional<HostTime> gap_since_;  ///< or since the last progress in it
-  std::optional<HostTime> resend_asked_;
-  bool newer_epoch_ = false;  ///< the server is ahead by a start
+  std::uint64_t server_seq_ = 0;        ///< as last said
+  std::optional<HostTime> gap_since_;   ///< or since the last progress in it
+  std::optional<HostTime> tail_asked_;  ///< for what is missing at the end
+  bool newer_epoch_ = false;            ///< the server is ahead by a start
   bool wants_snapshot_ = false;
   std::optional<HostTime> snapshot_asked_;
 };

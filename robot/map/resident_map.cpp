@@ -114,20 +114,22 @@ void ResidentMap::robot_at(const Eigen::Vector3f& p_in_map_m) {
 
 std::vector<MapRequest> ResidentMap::requests(HostTime now) {
   const std::lock_guard lock(mutex_);
-  std::vector<MapRequest> requests = residency_.requests(state_, bytes_each(), now);
-  if (auto request = gate_.request(now)) {
-    ++(request->kind == RequestKind::kResend ? counters_.resends_asked : counters_.snapshots_asked);
-    requests.push_back(std::move(*request));
-  }
+  std::vector<MapRequest> requests = gate_.requests(now);
+  for (const MapRequest& request : requests)
+    ++(request.kind == RequestKind::kResend ? counters_.resends_asked : counters_.snapshots_asked);
+  std::vector<MapRequest> others = residency_.requests(state_, bytes_each(), now);
   const bool more_due = !more_asked_ || now - *more_asked_ >= kMorePatience;
   if (more_waits_ && more_due && residency_.has_room(state_, bytes_each())) {
     more_asked_ = now;
-    requests.emplace_back().kind = RequestKind::kMore;
+    others.emplace_back().kind = RequestKind::kMore;
+  }
+  for (MapRequest& request : others) {
+    request.epoch = gate_.position().epoch;
+    request.seq = gate_.position().seq;
+    requests.push_back(std::move(request));
   }
   for (MapRequest& request : requests) {
     request.robot = config_.robot;
-    request.epoch = gate_.position().epoch;
-    request.seq = gate_.position().seq;
     request.robot_in_map_m = residency_.robot_in_map_m();
   }
   return requests;

@@ -79,9 +79,8 @@ DeltaStream::Changes DeltaStream::sort_out(const gaussian::GaussianCloud& cloud,
     } else if (!held || held_.rows().chunks[*held] != chunk) {
       map::append_quantised(cloud, row, chunk, changes.added);
     } else {
-      map::append_quantised(cloud, row, chunk, changes.now);
       const RowChange change =
-          settle_change(changes.now, changes.now.size() - 1, held_.rows(), *held, config_.tolerance);
+          settle_change({cloud, row}, {held_.rows(), *held}, config_.tolerance, changes.now);
       if (change.fields == 0) {
         changes.now.resize(changes.now.size() - 1);
       } else {
@@ -196,6 +195,7 @@ DeltaStreamCounters DeltaStream::counters() const {
   const std::lock_guard lock(mutex_);
   DeltaStreamCounters counters = counters_;
   counters.waiting = waiting_.size();
+  counters.waiting_chunks = plan_.waiting();
   return counters;
 }
 

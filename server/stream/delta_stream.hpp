@@ -43,6 +43,7 @@ struct DeltaStreamCounters {
   std::uint64_t unquantisable = 0;  ///< rows passed over: not finite or beyond the map
   std::uint64_t refused = 0;        ///< deltas that could not be encoded: a bug of ours
   std::size_t waiting = 0;          ///< Gaussians whose change has not been sent yet
+  std::size_t waiting_chunks = 0;   ///< that the robot is to get as a whole
 };
 
 /// How far a stream is and what the robot holds then.

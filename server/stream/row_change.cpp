@@ -5,115 +5,132 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
 namespace edgesplat::stream {
 namespace {
 
 using map::Field;
 
-/// What a step of each channel layout (map::kChannelLayouts) weighs, and how many nobody sees.
-struct Weight {
-  float step;
-  float unseen_steps;
-};
-
-float scale_m(const map::Channels& channels, std::size_t axis) {
-  return std::exp(static_cast<float>(channels[3 + axis]) / 64.0F - 10.0F);
-}
-
-constexpr float kTurnStep_rad = 0.001F;
-
-/// Angle between two rotations; which component is the largest does not matter.
-int turn_steps(const map::Channels& a, const map::Channels& b) {
-  if (std::equal(a.begin() + 6, a.begin() + 10, b.begin() + 6)) return 0;
-  const auto p = map::decode_pose({}, a).quat_xyzw;
-  const auto q = map::decode_pose({}, b).quat_xyzw;
-  const double dot = std::abs(p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]);
-  const double angle_rad = 2.0 * std::sqrt(2.0 * std::max(0.0, 1.0 - dot));
-  return static_cast<int>(std::lround(angle_rad / static_cast<double>(kTurnStep_rad)));
-}
+// Differences that nobody sees.
+constexpr float kUnseenMean = 0.05F;  // of the smallest axis
+constexpr float kUnseenLogScale = 0.05F;
+constexpr float kUnseenTurn = 0.03F;  // rad times the ratio of the axes: the tips lie at three sigma
+constexpr float kUnseenAlpha = 0.01F;
+constexpr float kUnseenColour = 0.01F;
+constexpr float kUnseenSh = map::kShStep;
 
 struct Size {
   float least_m;
   float middle_m;  ///< geometric mean
-  float most_m;
+  float aspect;
 };
 
 Size size_of(const map::Channels& channels) {
-  const std::array<float, 3> axes_m = {scale_m(channels, 0), scale_m(channels, 1), scale_m(channels, 2)};
+  std::array<float, 3> axes_m{};
+  for (std::size_t k = 0; k < 3; ++k)
+    axes_m[k] = std::exp(map::decode_log_scale(channels[map::kLogScaleAt + k]));
   const auto [least, most] = std::minmax_element(axes_m.begin(), axes_m.end());
-  return {std::max(*least, 1e-3F), std::cbrt(axes_m[0] * axes_m[1] * axes_m[2]), *most};
+  const float least_m = std::max(*least, 1e-3F);  // thinner than a millimetre looks the same
+  return {least_m, std::cbrt(axes_m[0] * axes_m[1] * axes_m[2]), std::clamp(*most / least_m, 1.0F, 8.0F)};
 }
 
-std::array<Weight, map::kChannelLayouts.size()> weights(const Size& size) {
-  const float position_step = static_cast<float>(map::kPositionStep_m) / size.least_m;
-  const float aspect = std::clamp(size.most_m / size.least_m, 1.0F, 8.0F);
-  // Rotations are compared in the large: see turn_steps().
-  const float rotation_step = kTurnStep_rad * aspect;
-  return {{{position_step, 0.05F / position_step},
-           {1.0F / 64.0F, 2.0F},
-           {rotation_step, 0.03F / rotation_step},
-           {rotation_step, 0.03F / rotation_step},
-           {1.0F / 256.0F, 2.0F},
-           {1.0F / 512.0F, 4.0F}}};
+float mean_difference_m(const TrueRow& truth, const map::DecodedPose& held) {
+  float most_m = 0.0F;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double is_m = truth.cloud.means_m[3 * truth.row + k];
+    most_m = std::max(most_m, static_cast<float>(std::abs(is_m - held.mean_m[k])));
+  }
+  return most_m;
 }
 
-/// Largest difference of one layout's channels, in steps.
-int difference(const map::Channels& a, const map::Channels& b, const map::ChannelLayout& layout) {
-  if (layout.field == Field::kRotation) return layout.count > 1 ? turn_steps(a, b) : 0;
-  int most = 0;
-  for (std::size_t k = layout.first; k < layout.first + layout.count; ++k)
-    most = std::max(most, std::abs(static_cast<int>(a[k]) - static_cast<int>(b[k])));
+float turn_rad(const TrueRow& truth, const map::DecodedPose& held) {
+  double dot = 0.0;
+  double norm2 = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double v = truth.cloud.quats_xyzw[4 * truth.row + k];
+    dot += v * held.quat_xyzw[k];
+    norm2 += v * v;
+  }
+  return static_cast<float>(2.0 * std::sqrt(2.0 * std::max(0.0, 1.0 - std::abs(dot) / std::sqrt(norm2))));
+}
+
+float alpha_difference(const TrueRow& truth, const map::Channels& held) {
+  const float alpha = 1.0F / (1.0F + std::exp(-truth.cloud.opacity_logits[truth.row]));
+  return std::abs(alpha - map::decode_alpha(held[map::kOpacityAt]));
+}
+
+float log_scale_difference(const TrueRow& truth, const map::Channels& held) {
+  float most = 0.0F;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float is = truth.cloud.log_scales[3 * truth.row + k];
+    most = std::max(most, std::abs(is - map::decode_log_scale(held[map::kLogScaleAt + k])));
+  }
   return most;
 }
 
-void set_back(map::Channels& to, const map::Channels& from, Field field) {
-  for (const map::ChannelLayout& layout : map::kChannelLayouts) {
-    if (layout.field != field) continue;
-    std::copy_n(from.begin() + layout.first, layout.count, to.begin() + layout.first);
+float colour_difference(const TrueRow& truth, const map::Channels& held) {
+  const float* sh = truth.cloud.sh.data() + truth.cloud.sh_floats_each() * truth.row;
+  float most = 0.0F;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float rgb = 0.5F + gaussian::GaussianCloud::kShC0 * sh[k];
+    most = std::max(most, std::abs(rgb - map::decode_colour(held[map::kColourAt + k])));
   }
+  return most;
 }
 
-int settle_sh(map::QuantisedRows& now, std::size_t row, const map::QuantisedRows& held, std::size_t held_row,
-              float tolerance) {
-  const std::size_t each = now.sh_rest_each();
-  int most = 0;
+float sh_difference(const TrueRow& truth, const HeldRow& held) {
+  const std::size_t each = held.rows.sh_rest_each();
+  const float* sh = truth.cloud.sh.data() + (each + 3) * truth.row + 3;
+  const std::int8_t* held_sh = held.rows.sh_rest.data() + each * held.row;
+  float most = 0.0F;
   for (std::size_t k = 0; k < each; ++k)
-    most = std::max(most, std::abs(now.sh_rest[each * row + k] - held.sh_rest[each * held_row + k]));
-  if (static_cast<float>(most) > tolerance) return most;
-  for (std::size_t k = 0; k < each; ++k) now.sh_rest[each * row + k] = held.sh_rest[each * held_row + k];
-  return 0;
+    most = std::max(most, std::abs(sh[k] - map::kShStep * static_cast<float>(held_sh[k])));
+  return most;
+}
+
+/// Fields that are not in `fields` become the held ones again.
+void set_back(const HeldRow& held, map::FieldMask fields, map::QuantisedRows& now) {
+  map::Channels& channels = now.channels.back();
+  const map::Channels& before = held.rows.channels[held.row];
+  for (const map::ChannelLayout& layout : map::kChannelLayouts) {
+    if (map::has(fields, layout.field)) continue;
+    for (std::size_t k = layout.first; k < layout.first + layout.count; ++k) channels[k] = before[k];
+  }
+  const std::size_t each = now.sh_rest_each();
+  if (map::has(fields, Field::kSh) || each == 0) return;
+  std::copy_n(held.rows.sh_rest.data() + each * held.row, each, now.sh_rest.data() + each * (now.size() - 1));
 }
 
 }  // namespace
 
-RowChange settle_change(map::QuantisedRows& now, std::size_t row, const map::QuantisedRows& held,
-                        std::size_t held_row, float tolerance) {
-  RowChange change;
-  map::Channels& channels = now.channels[row];
-  const map::Channels& before = held.channels[held_row];
+RowChange settle_change(const TrueRow& truth, const HeldRow& held, float tolerance, map::QuantisedRows& now) {
+  const map::ChunkId chunk = held.rows.chunks[held.row];
+  const map::Channels& before = held.rows.channels[held.row];
+  map::append_quantised(truth.cloud, truth.row, chunk, now);
   const Size size = size_of(before);
-  const auto weight = weights(size);
+  const map::DecodedPose pose = map::decode_pose(chunk, before);
+  RowChange change;
   float sum = 0.0F;
-  for (std::size_t i = 0; i < map::kChannelLayouts.size(); ++i) {
-    const auto steps = static_cast<float>(difference(channels, before, map::kChannelLayouts[i]));
-    if (steps <= tolerance * weight[i].unseen_steps) continue;
-    sum += steps * weight[i].step;
-    change.fields |= static_cast<map::FieldMask>(map::kChannelLayouts[i].field);
-  }
-  for (const map::ChannelLayout& layout : map::kChannelLayouts) {
-    if (!map::has(change.fields, layout.field)) set_back(channels, before, layout.field);
-  }
-  if (const int steps = settle_sh(now, row, held, held_row, tolerance); steps > 0) {
-    sum += static_cast<float>(steps) * map::kShStep * 0.3F;
-    change.fields |= static_cast<map::FieldMask>(Field::kSh);
-  }
-  if (now.anchors[row] != held.anchors[held_row]) {
-    sum += 0.01F;
-    change.fields |= static_cast<map::FieldMask>(Field::kAnchor);
-  }
-  const auto alpha = static_cast<float>(std::max(channels[10], before[10])) / 256.0F;
+  const auto weigh = [&](Field field, float difference, float unseen) {
+    if (difference <= tolerance * unseen) return;
+    sum += difference;
+    change.fields |= static_cast<map::FieldMask>(field);
+  };
+  weigh(Field::kPosition, mean_difference_m(truth, pose) / size.least_m, kUnseenMean);
+  weigh(Field::kLogScale, log_scale_difference(truth, before), kUnseenLogScale);
+  weigh(Field::kRotation, turn_rad(truth, pose) * size.aspect, kUnseenTurn);
+  weigh(Field::kOpacity, alpha_difference(truth, before), kUnseenAlpha);
+  weigh(Field::kColour, colour_difference(truth, before), kUnseenColour);
+  weigh(Field::kSh, sh_difference(truth, held), kUnseenSh);
+  set_back(held, change.fields, now);
+  if (truth.cloud.anchors[truth.row] != held.rows.anchors[held.row])
+    weigh(Field::kAnchor, 2.0F * tolerance + 0.01F, 1.0F);
+  // What quantises to the same integers needs no telling.
+  if (now.channels.back() == before && !map::has(change.fields, Field::kSh) &&
+      !map::has(change.fields, Field::kAnchor))
+    change.fields = 0;
+  const float alpha = std::max(map::decode_alpha(now.channels.back()[map::kOpacityAt]),
+                               map::decode_alpha(before[map::kOpacityAt]));
   change.priority = sum * alpha * size.middle_m;
   return change;
 }

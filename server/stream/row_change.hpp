@@ -12,10 +12,22 @@ struct RowChange {
   float priority = 0.0F;      ///< sum of the differences as the eye weighs them, times opacity and size
 };
 
-/// Compares row `row` of `now` with row `held_row` of `held` (same chunk, same SH degree). Fields that differ
-/// by no more than `tolerance` times what nobody sees (a twentieth of the smallest axis, 3 % of a scale, a
-/// quarter of a degree, 1/128 of opacity or colour) are set back to the held value: they cost no bytes then.
-[[nodiscard]] RowChange settle_change(map::QuantisedRows& now, std::size_t row,
-                                      const map::QuantisedRows& held, std::size_t held_row, float tolerance);
+/// One Gaussian in full precision.
+struct TrueRow {
+  const gaussian::GaussianCloud& cloud;
+  std::size_t row;
+};
+/// The same as the robot holds it.
+struct HeldRow {
+  const map::QuantisedRows& rows;
+  std::size_t row;
+};
+
+/// Compares a Gaussian with what the robot holds of it. `now` ends with the same Gaussian, quantised in the
+/// held one's chunk: fields that differ by no more than `tolerance` times what nobody sees (a twentieth of
+/// the smallest axis, 5 % of a scale, a turn that moves the tips by a tenth of the smallest axis, 1/100 of
+/// opacity or colour, a step of SH) are set back to the held value there, and cost no bytes then.
+[[nodiscard]] RowChange settle_change(const TrueRow& truth, const HeldRow& held, float tolerance,
+                                      map::QuantisedRows& now);
 
 }  // namespace edgesplat::stream

@@ -47,7 +47,7 @@ TEST(MapState, AddsUpdatesAndRemoves) {
   update.fields = static_cast<FieldMask>(Field::kColour) | static_cast<FieldMask>(Field::kSh);
   update.differences.sh_degree = 1;
   for (std::size_t row = 0; row < 300; row += 2) {
-    after.channels[row][12] = static_cast<std::uint16_t>((after.channels[row][12] + 1000) & 1023);
+    after.channels[row][12] = static_cast<std::uint16_t>((after.channels[row][12] + 500) & 511);
     after.sh_rest[9 * row] = static_cast<std::int8_t>(after.sh_rest[9 * row] + 100);
     append_difference(after, row, rows, row, update.differences);
   }

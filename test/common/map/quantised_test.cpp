@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -34,22 +35,22 @@ TEST(Quantised, EveryFieldComesBackWithinHalfAStep) {
   EXPECT_EQ(back.anchors, cloud.anchors);
   for (std::size_t i = 0; i < cloud.means_m.size(); ++i) {
     EXPECT_NEAR(back.means_m[i], cloud.means_m[i], 0.0000925);  // 12 m / 65536 / 2, and float
-    EXPECT_NEAR(back.log_scales[i], cloud.log_scales[i], 1.0 / 128 + 1e-6);
+    EXPECT_NEAR(back.log_scales[i], cloud.log_scales[i], 1.0 / 32 + 1e-6);
   }
   for (std::size_t row = 0; row < cloud.size(); ++row) {
     EXPECT_LT(angle_between(&back.quats_xyzw[4 * row], &cloud.quats_xyzw[4 * row]),
-              0.0042);  // half a step of 1.4e-3 in each of four components, twice
+              0.0085);  // half a step of 2.8e-3 in each of four components, twice
     const auto alpha = [](float logit) { return 1.0 / (1.0 + std::exp(-static_cast<double>(logit))); };
     EXPECT_NEAR(alpha(back.opacity_logits[row]), alpha(cloud.opacity_logits[row]), 1.0 / 512 + 1e-6);
     for (std::size_t k = 0; k < 48; ++k) {
-      const double step = k < 3 ? 1.0 / 512 / 0.2820948 : 1.0 / 64;
+      const double step = k < 3 ? 1.0 / 256 / 0.2820948 : 1.0 / 64;
       EXPECT_NEAR(back.sh[48 * row + k], cloud.sh[48 * row + k], step / 2 + 1e-5) << k;
     }
   }
 }
 
 // Repeated corrections must not make a Gaussian drift by itself.
-TEST(Quantised, APoseDecodedAndEncodedAgainIsTheSameIntegers) {
+TEST(Quantised, APoseDecodedAndEncodedAgainIsTheSamePose) {
   test::Random random(3);
   for (int i = 0; i < 20000; ++i) {
     const ChunkId chunk{static_cast<std::int32_t>(random.below(2000)) - 1000, -100000, 7};
@@ -59,7 +60,12 @@ TEST(Quantised, APoseDecodedAndEncodedAgainIsTheSameIntegers) {
                 channels);
     Channels again = channels;
     encode_pose(chunk, decode_pose(chunk, channels), again);
-    ASSERT_EQ(again, channels);
+    ASSERT_TRUE(std::equal(again.begin(), again.begin() + 3, channels.begin()));
+    // Where two components are the largest alike, the other one may be left out the second time.
+    ASSERT_TRUE(again[kLargestAt] != channels[kLargestAt] || again == channels);
+    const auto p = decode_pose(chunk, channels).quat_xyzw;
+    const auto q = decode_pose(chunk, again).quat_xyzw;
+    ASSERT_GT(std::abs(p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]), 1.0 - 1e-5);
   }
 }
 
@@ -101,9 +107,9 @@ TEST(Quantised, ExtremesAreClampedNotWrapped) {
   EXPECT_NEAR(back.means_m[1], -0.9F, 1e-4);
   EXPECT_NEAR(back.means_m[2], 10.99F, 1e-4);
   EXPECT_FLOAT_EQ(back.log_scales[0], -10.0F);
-  EXPECT_NEAR(back.log_scales[1], 5.984F, 1e-3);
+  EXPECT_NEAR(back.log_scales[1], 5.9375F, 1e-3);
   EXPECT_GT(back.opacity_logits[0], 6.0F);
-  EXPECT_NEAR(0.5 + 0.2820948 * static_cast<double>(back.sh[0]), 1.498, 1e-3);
+  EXPECT_NEAR(0.5 + 0.2820948 * static_cast<double>(back.sh[0]), 1.496, 1e-3);
   EXPECT_NEAR(0.5 + 0.2820948 * static_cast<double>(back.sh[1]), -0.5, 1e-3);
 }
 
