@@ -8,3 +8,11 @@
 #else
 #define EDGESPLAT_HOST_DEVICE
 #endif
+
+/// Before a short loop of known length inside a loop over many: unrolled, the outer one becomes vector
+/// operations.
+#if defined(__CUDACC__) || defined(__clang__)
+#define EDGESPLAT_UNROLL _Pragma("unroll")
+#else
+#define EDGESPLAT_UNROLL _Pragma("GCC unroll 16")
+#endif

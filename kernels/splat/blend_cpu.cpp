@@ -3,58 +3,45 @@
 #include "kernels/core/simd_variants.hpp"
 #include "kernels/splat/blend.hpp"
 #include "kernels/splat/pixel_alpha.hpp"
+#include "kernels/splat/tile_blocks.hpp"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace edgesplat::splat {
 namespace {
 
-/// A tile's accumulators, channel by channel so that a row of 16 pixels is a vector.
+/// A tile's accumulators, channel by channel so that a block of pixels is a vector.
 struct Tile {
-  float transmittance[kTilePx][kTilePx];
-  float active[kTilePx][kTilePx];  ///< 1 until the pixel is full, then 0
-  float red[kTilePx][kTilePx];
-  float green[kTilePx][kTilePx];
-  float blue[kTilePx][kTilePx];
-  float depth[kTilePx][kTilePx];
+  TilePlane transmittance;
+  TilePlane active;  ///< 1 until the pixel is full, then 0
+  TilePlane red, green, blue, depth;
 };
 
 void clear(Tile& tile) {
-  for (int y = 0; y < kTilePx; ++y) {
-    for (int x = 0; x < kTilePx; ++x) {
-      tile.transmittance[y][x] = 1.0F;
-      tile.active[y][x] = 1.0F;
-      tile.red[y][x] = tile.green[y][x] = tile.blue[y][x] = tile.depth[y][x] = 0.0F;
-    }
-  }
+  tile = {};
+  std::fill_n(&tile.transmittance[0][0], kBlocks * kBlockPixels, 1.0F);
+  std::fill_n(&tile.active[0][0], kBlocks * kBlockPixels, 1.0F);
 }
 
-/// Adds one splat to one row of pixels. By value: else the compiler fears that the tile overlaps the splat.
-EDGESPLAT_INLINE void add_to_row(const Splat s, float x0_px, float dy, int y, Tile& tile) {
-  const RowOfSplat row = row_of(s, dy);
-  for (int x = 0; x < kTilePx; ++x) {
-    const float alpha = blended_alpha(raw_alpha(s.opacity, row, x0_px + static_cast<float>(x) - s.u_px));
-    const float before = tile.transmittance[y][x];
+/// Adds one splat to block k, whose first pixel lies at (left, top) from its centre.
+EDGESPLAT_INLINE void add_to_block(const Splat& s, const Falloff f, float left, float top, int k,
+                                   Tile& tile) {
+  for (int i = 0; i < kBlockPixels; ++i) {
+    const float alpha = blended_alpha(raw_alpha(f, left + kPixelX[i], top + kPixelY[i]));
+    const float before = tile.transmittance[k][i];
     const float after = before * (1.0F - alpha);
-    const float active = after >= kMinTransmittance ? tile.active[y][x] : 0.0F;
+    const float active = after >= kMinTransmittance ? tile.active[k][i] : 0.0F;
     const float weight = active * alpha * before;
-    tile.red[y][x] += weight * s.rgb[0];
-    tile.green[y][x] += weight * s.rgb[1];
-    tile.blue[y][x] += weight * s.rgb[2];
-    tile.depth[y][x] += weight * s.depth_m;
-    tile.transmittance[y][x] = active > 0.0F ? after : before;
-    tile.active[y][x] = active;
+    tile.red[k][i] = std::fma(weight, s.rgb[0], tile.red[k][i]);
+    tile.green[k][i] = std::fma(weight, s.rgb[1], tile.green[k][i]);
+    tile.blue[k][i] = std::fma(weight, s.rgb[2], tile.blue[k][i]);
+    tile.depth[k][i] = std::fma(weight, s.depth_m, tile.depth[k][i]);
+    tile.transmittance[k][i] = active > 0.0F ? after : before;
+    tile.active[k][i] = active;
   }
-}
-
-EDGESPLAT_INLINE bool any_active(const Tile& tile) {
-  float sum = 0.0F;
-  for (const auto& row : tile.active) {
-    for (const float active : row) sum += active;
-  }
-  return sum > 0.0F;
 }
 
 void write_tile(const Tile& tile, int column, int row, const View& view, const RenderOptions& options,
@@ -65,11 +52,13 @@ void write_tile(const Tile& tile, int column, int row, const View& view, const R
     for (int x = 0; x < std::min(kTilePx, view.width_px - x0); ++x) {
       const auto pixel = static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(view.width_px) +
                          static_cast<std::size_t>(x0 + x);
-      const float left = tile.transmittance[y][x];
-      out.colour[3 * pixel] = tile.red[y][x] + left * options.background[0];
-      out.colour[3 * pixel + 1] = tile.green[y][x] + left * options.background[1];
-      out.colour[3 * pixel + 2] = tile.blue[y][x] + left * options.background[2];
-      out.depth_sum_m[pixel] = tile.depth[y][x];
+      const int k = block_of(x, y);
+      const int i = pixel_of(x, y);
+      const float left = tile.transmittance[k][i];
+      out.colour[3 * pixel] = tile.red[k][i] + left * options.background[0];
+      out.colour[3 * pixel + 1] = tile.green[k][i] + left * options.background[1];
+      out.colour[3 * pixel + 2] = tile.blue[k][i] + left * options.background[2];
+      out.depth_sum_m[pixel] = tile.depth[k][i];
       out.alpha[pixel] = 1.0F - left;
     }
   }
@@ -77,17 +66,20 @@ void write_tile(const Tile& tile, int column, int row, const View& view, const R
 
 EDGESPLAT_INLINE void blend_tile_inline(std::span<const Splat> splats, std::span<const std::uint32_t> list,
                                         int column, int row, Tile& tile) {
-  constexpr std::size_t kCheckEvery = 16;  // looking whether the tile is full costs about one splat
+  constexpr std::size_t kCheckEvery = 16;  // looking which blocks are full costs about one splat
   const auto x0 = static_cast<float>(column * kTilePx);
   const auto y0 = static_cast<float>(row * kTilePx);
   clear(tile);
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (i + kPrefetchAhead < list.size()) prefetch(splats[list[i + kPrefetchAhead]]);
-    const Splat& s = splats[list[i]];
-    const TileRows rows = rows_reached(s, y0);
-    for (int y = rows.first; y <= rows.last; ++y)
-      add_to_row(s, x0, y0 + static_cast<float>(y) - s.v_px, y, tile);
-    if (i % kCheckEvery == kCheckEvery - 1 && !any_active(tile)) return;
+  std::uint32_t active = (1U << kBlocks) - 1;
+  for (std::size_t i = 0; i < list.size() && active != 0; ++i) {
+    if (i + kPrefetchAhead < list.size()) __builtin_prefetch(&splats[list[i + kPrefetchAhead]]);
+    const Splat s = splats[list[i]];  // a copy: else the compiler fears that the tile overlaps it
+    const Falloff falloff = falloff_of(s);
+    for (std::uint32_t todo = blocks_reached(s, x0, y0) & active; todo != 0; todo &= todo - 1) {
+      const int k = std::countr_zero(todo);
+      add_to_block(s, falloff, x0 - s.u_px + 4.0F * kPixelX[k], y0 - s.v_px + 4.0F * kPixelY[k], k, tile);
+    }
+    if (i % kCheckEvery == kCheckEvery - 1) active = blocks_active(tile.active);
   }
 }
 

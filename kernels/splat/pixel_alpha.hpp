@@ -12,19 +12,25 @@
 
 namespace edgesplat::splat {
 
-/// One splat on one row of pixels: power(dx) = -(a dx^2 + b dx + c), so that only dx is left to do per pixel.
-struct RowOfSplat {
+/// A splat as the pixels ask it: opacity times falloff = 2^(top - (a dx^2 + b dx dy + c dy^2)).
+struct Falloff {
   float a, b, c;
+  float top;
 };
 
-[[gnu::always_inline]] inline RowOfSplat row_of(const Splat& s, float dy) {
-  return {0.5F * s.conic[0], s.conic[1] * dy, 0.5F * s.conic[2] * dy * dy};
+[[gnu::always_inline]] inline Falloff falloff_of(const Splat& s) {
+  constexpr float kLog2e = 1.44269504F;
+  constexpr float kLog2Of255 = 7.99435344F;
+  // reach2 = 2 ln(255 opacity)
+  return {0.5F * kLog2e * s.conic[0], kLog2e * s.conic[1], 0.5F * kLog2e * s.conic[2],
+          0.5F * kLog2e * s.reach2 - kLog2Of255};
 }
 
 /// Opacity times falloff, before it is cut at kMaxAlpha and dropped under kMinAlpha.
-[[gnu::always_inline]] inline float raw_alpha(float opacity, const RowOfSplat& row, float dx) {
-  const float power = -(row.a * dx * dx + row.b * dx + row.c);
-  return opacity * exp_fast(std::max(std::min(power, 0.0F), -20.0F));
+[[gnu::always_inline]] inline float raw_alpha(const Falloff& f, float dx, float dy) {
+  const float along_x = std::fma(f.b, dy, f.a * dx);
+  const float form = std::fma(along_x, dx, f.c * dy * dy);
+  return exp2_fast(std::max(std::min(f.top - form, f.top), -20.0F));
 }
 
 /// Alpha as blended: the forward and the backward pass must take the same decisions to the last bit.
@@ -35,21 +41,5 @@ struct RowOfSplat {
 
 /// A tile's splats lie all over memory: asked for this many ahead, they are there in time.
 inline constexpr std::size_t kPrefetchAhead = 6;
-[[gnu::always_inline]] inline void prefetch(const Splat& s) {
-  __builtin_prefetch(&s);
-  __builtin_prefetch(&s.gaussian);  // it may lie across two lines
-}
-
-struct TileRows {
-  int first, last;  ///< both inclusive; empty where last < first
-};
-
-/// The rows of a tile, counted from its top at y0, that a splat's box reaches.
-[[gnu::always_inline]] inline TileRows rows_reached(const Splat& s, float y0) {
-  constexpr auto kRows = static_cast<float>(kTilePx);
-  // Clamped as floats: a splat may be larger than any int.
-  return {static_cast<int>(std::clamp(std::ceil(s.v_px - s.half_height_px - y0), 0.0F, kRows)),
-          static_cast<int>(std::clamp(std::floor(s.v_px + s.half_height_px - y0), -1.0F, kRows - 1))};
-}
 
 }  // namespace edgesplat::splat

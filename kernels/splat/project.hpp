@@ -12,8 +12,8 @@
 
 namespace edgesplat::splat {
 
-/// One Gaussian on the screen, packed as the blend reads it.
-struct Splat {
+/// One Gaussian on the screen, packed as the blend reads it: one line of cache.
+struct alignas(64) Splat {
   float u_px, v_px;
   float conic[3];       ///< inverse 2-D covariance xx, xy, yy
   float opacity;        ///< 0..1
@@ -21,6 +21,7 @@ struct Splat {
   float depth_m;        ///< z in the camera frame
   float half_width_px;  ///< of the box outside of which alpha < 1/255
   float half_height_px;
+  float reach2;            ///< 2 ln(255 opacity): Mahalanobis distance squared at which alpha is 1/255
   std::uint32_t gaussian;  ///< row in the input
 };
 

@@ -30,23 +30,32 @@ struct Projection {
 /// Covariance R S S^T R^T of a Gaussian, upper triangle xx xy xz yy yz zz (3DGS, eq. 6). The quaternion (x,
 /// y, z, w) is normalised here.
 template <typename T>
-EDGESPLAT_HOST_DEVICE inline void covariance3d(const T* quat, const T* log_scale, T* cov) {
+EDGESPLAT_HOST_DEVICE inline void covariance3d_of_scale(const T* quat, const T* scale, T* cov) {
   const T norm = std::sqrt(quat[0] * quat[0] + quat[1] * quat[1] + quat[2] * quat[2] + quat[3] * quat[3]);
   const T x = quat[0] / norm, y = quat[1] / norm, z = quat[2] / norm, w = quat[3] / norm;
   const T r[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
                   2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
                   2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
   T m[9];
+  EDGESPLAT_UNROLL
   for (int j = 0; j < 3; ++j) {
-    const T scale = std::exp(log_scale[j]);
-    for (int i = 0; i < 3; ++i) m[3 * i + j] = r[3 * i + j] * scale;
+    EDGESPLAT_UNROLL
+    for (int i = 0; i < 3; ++i) m[3 * i + j] = r[3 * i + j] * scale[j];
   }
   int k = 0;
+  EDGESPLAT_UNROLL
   for (int i = 0; i < 3; ++i) {
+    EDGESPLAT_UNROLL
     for (int j = i; j < 3; ++j) {
       cov[k++] = m[3 * i] * m[3 * j] + m[3 * i + 1] * m[3 * j + 1] + m[3 * i + 2] * m[3 * j + 2];
     }
   }
+}
+
+template <typename T>
+EDGESPLAT_HOST_DEVICE inline void covariance3d(const T* quat, const T* log_scale, T* cov) {
+  const T scale[3] = {std::exp(log_scale[0]), std::exp(log_scale[1]), std::exp(log_scale[2])};
+  covariance3d_of_scale(quat, scale, cov);
 }
 
 /// EWA projection (Zwicker 2001, eq. 31): mean and 2-D covariance J W Sigma W^T J^T + low_pass I. The
@@ -57,6 +66,7 @@ template <typename T>
 EDGESPLAT_HOST_DEVICE inline bool project(const CameraT<T>& c, const T* mean, const T* cov3d, T near_m,
                                           T low_pass, Projection<T>& out) {
   const T* r = c.rotation;
+  EDGESPLAT_UNROLL
   for (int i = 0; i < 3; ++i) {
     out.p[i] = r[3 * i] * mean[0] + r[3 * i + 1] * mean[1] + r[3 * i + 2] * mean[2] + c.translation[i];
   }
@@ -70,6 +80,7 @@ EDGESPLAT_HOST_DEVICE inline bool project(const CameraT<T>& c, const T* mean, co
   y = y < -y_limit ? -y_limit : (y > y_limit ? y_limit : y);
   // Rows of J W, J = d(u, v)/d(p).
   T a[3], b[3];
+  EDGESPLAT_UNROLL
   for (int i = 0; i < 3; ++i) {
     a[i] = c.fx / z * (r[i] - x * r[6 + i]);
     b[i] = c.fy / z * (r[3 + i] - y * r[6 + i]);

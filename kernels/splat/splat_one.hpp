@@ -77,9 +77,9 @@ EDGESPLAT_HOST_DEVICE inline SplatOutcome splat_one(const SplatInput& in, const 
   if (!project(camera, in.mean, cov3d, near_m, low_pass, p)) return SplatOutcome::kCulled;
   // alpha >= 1/255 only where the Mahalanobis distance squared is under 2 ln(255 opacity): the box around
   // that ellipse.
-  const float reach = 2.0F * std::log(out.opacity / kMinAlpha);
-  out.half_width_px = std::sqrt(reach * p.cov[0]);
-  out.half_height_px = std::sqrt(reach * p.cov[2]);
+  out.reach2 = 2.0F * std::log(out.opacity / kMinAlpha);
+  out.half_width_px = std::sqrt(out.reach2 * p.cov[0]);
+  out.half_height_px = std::sqrt(out.reach2 * p.cov[2]);
   const bool outside = !(p.u + out.half_width_px > -0.5F) || !(p.u - out.half_width_px < width_px - 0.5F) ||
                        !(p.v + out.half_height_px > -0.5F) || !(p.v - out.half_height_px < height_px - 0.5F);
   if (outside || !all_finite(p.conic, 3)) return SplatOutcome::kCulled;

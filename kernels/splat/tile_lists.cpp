@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/splat/tile_lists.hpp"
 
-#include "kernels/splat/splat_one.hpp"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -77,7 +75,7 @@ void find_tiles(std::span<const Splat> splats, const TileLists& lists, Part& par
     const Range columns = tiles_touched(s.u_px, s.half_width_px, lists.columns);
     const Range rows = tiles_touched(s.v_px, s.half_height_px, lists.rows);
     // A hair more than the blend's own threshold, so that rounding never loses a pixel.
-    const float reach2 = 2.0F * std::log(s.opacity / kMinAlpha) * 1.0001F + 1e-4F;
+    const float reach2 = s.reach2 * 1.0001F + 1e-4F;
     const std::size_t before = part.tiles.size();
     for (int row = rows.first; row < rows.last; ++row) {
       for (int column = columns.first; column < columns.last; ++column) {

@@ -5,10 +5,13 @@
 #include "common/base/check.hpp"
 #include "kernels/core/simd_variants.hpp"
 #include "kernels/splat/pixel_alpha.hpp"
+#include "kernels/splat/tile_blocks.hpp"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 namespace edgesplat::train {
 namespace {
@@ -16,86 +19,81 @@ namespace {
 using splat::kTilePx;
 using splat::Splat;
 
-using Plane = float[kTilePx][kTilePx];
+using splat::kBlockPixels;
+using splat::TilePlane;
 
-/// A tile's pixels, channel by channel so that a row of 16 is a vector.
+/// A tile's pixels, channel by channel so that a block of 16 is a vector.
 struct Tile {
-  Plane transmittance;
-  Plane active;  ///< 1 until the pixel is full, then 0
-  Plane rest;    ///< dL by picture times what the splats still to come and the background add to it
-  Plane by_red, by_green, by_blue, by_depth;
+  TilePlane transmittance;
+  TilePlane active;  ///< 1 until the pixel is full, then 0
+  TilePlane rest;    ///< dL by picture times what the splats still to come and the background add to it
+  TilePlane by_red, by_green, by_blue, by_depth;
 };
 
-/// Sums over the pixels of one tile for one splat. g is dL by the exponent of the splat's falloff.
-enum Sum { kG, kGdy, kGdy2, kRed, kGreen, kBlue, kDepth, kWeight, kColumnSums };
-using ColumnSums = float[kColumnSums][kTilePx];
+/// Sums over the pixels of one tile for one splat: moments about its centre of g, dL by the exponent of its
+/// falloff, and dL by what it adds.
+enum Sum { kG, kGx, kGy, kGxx, kGxy, kGyy, kRed, kGreen, kBlue, kDepth, kWeight, kUnused, kSums };
+/// Place by place in the block, to be added up at the end.
+using LaneSums = float[kSums][kBlockPixels];
 
-/// The same after the columns: moments of g about the splat's centre.
 struct Moments {
-  float g, gx, gy, gxx, gxy, gyy;
-  float red, green, blue, depth, weight;
+  float sums[kSums];
 };
 
-/// One splat on one row of pixels. With T the transmittance before it, q = dL by picture times what it would
-/// add at weight 1, R the rest behind it: dL/dalpha = T q - R / (1 - alpha).
-EDGESPLAT_INLINE void add_row(const Splat s, float x0_px, float dy, int y, Tile& tile, ColumnSums& sums) {
-  const splat::RowOfSplat row = splat::row_of(s, dy);
-  const float dy2 = dy * dy;
-  for (int x = 0; x < kTilePx; ++x) {
-    const float raw = splat::raw_alpha(s.opacity, row, x0_px + static_cast<float>(x) - s.u_px);
+/// One splat on block k, whose first pixel lies at (left, top) from its centre. With T the transmittance
+/// before it, q = dL by picture times what it would add at weight 1, R the rest behind it: dL/dalpha = T q -
+/// R / (1 - alpha).
+EDGESPLAT_INLINE void add_block(const Splat& s, const splat::Falloff f, float left, float top, int k,
+                                Tile& tile, LaneSums& sums) {
+  for (int i = 0; i < kBlockPixels; ++i) {
+    const float dx = left + splat::kPixelX[i];
+    const float dy = top + splat::kPixelY[i];
+    const float raw = splat::raw_alpha(f, dx, dy);
     const float alpha = splat::blended_alpha(raw);
-    const float before = tile.transmittance[y][x];
+    const float before = tile.transmittance[k][i];
     const float after = before * (1.0F - alpha);
-    const float active = after >= splat::kMinTransmittance ? tile.active[y][x] : 0.0F;
+    const float active = after >= splat::kMinTransmittance ? tile.active[k][i] : 0.0F;
     const float weight = active * alpha * before;
-    const float q = tile.by_red[y][x] * s.rgb[0] + tile.by_green[y][x] * s.rgb[1] +
-                    tile.by_blue[y][x] * s.rgb[2] + tile.by_depth[y][x] * s.depth_m;
-    const float rest = tile.rest[y][x] - weight * q;
-    const float by_alpha = before * q - rest / (1.0F - alpha);
+    const float by_red = tile.by_red[k][i], by_green = tile.by_green[k][i];
+    const float by_blue = tile.by_blue[k][i], by_depth = tile.by_depth[k][i];
+    const float q = std::fma(by_red, s.rgb[0],
+                             std::fma(by_green, s.rgb[1], std::fma(by_blue, s.rgb[2], by_depth * s.depth_m)));
+    const float rest = std::fma(-weight, q, tile.rest[k][i]);
+    const float by_alpha = std::fma(before, q, -rest / (1.0F - alpha));
     // alpha is 0 where it is skipped and constant where it is cut.
     const float g = (raw < splat::kMaxAlpha ? active : 0.0F) * alpha * by_alpha;
-    sums[kG][x] += g;
-    sums[kGdy][x] += g * dy;
-    sums[kGdy2][x] += g * dy2;
-    sums[kRed][x] += weight * tile.by_red[y][x];
-    sums[kGreen][x] += weight * tile.by_green[y][x];
-    sums[kBlue][x] += weight * tile.by_blue[y][x];
-    sums[kDepth][x] += weight * tile.by_depth[y][x];
-    sums[kWeight][x] += weight;
-    tile.rest[y][x] = rest;
-    tile.transmittance[y][x] = active > 0.0F ? after : before;
-    tile.active[y][x] = active;
+    const float gx = g * dx;
+    const float gy = g * dy;
+    sums[kG][i] += g;
+    sums[kGx][i] += gx;
+    sums[kGy][i] += gy;
+    sums[kGxx][i] = std::fma(gx, dx, sums[kGxx][i]);
+    sums[kGxy][i] = std::fma(gx, dy, sums[kGxy][i]);
+    sums[kGyy][i] = std::fma(gy, dy, sums[kGyy][i]);
+    sums[kRed][i] = std::fma(weight, by_red, sums[kRed][i]);
+    sums[kGreen][i] = std::fma(weight, by_green, sums[kGreen][i]);
+    sums[kBlue][i] = std::fma(weight, by_blue, sums[kBlue][i]);
+    sums[kDepth][i] = std::fma(weight, by_depth, sums[kDepth][i]);
+    sums[kWeight][i] += weight;
+    tile.rest[k][i] = rest;
+    tile.transmittance[k][i] = active > 0.0F ? after : before;
+    tile.active[k][i] = active;
   }
 }
 
-/// Always in the same order: halves onto halves.
-EDGESPLAT_INLINE float sum_of(const float* values) {
-  float half[8];
-  for (int i = 0; i < 8; ++i) half[i] = values[i] + values[i + 8];
-  float quarter[4];
-  for (int i = 0; i < 4; ++i) quarter[i] = half[i] + half[i + 4];
-  return (quarter[0] + quarter[2]) + (quarter[1] + quarter[3]);
-}
-
-EDGESPLAT_INLINE Moments moments_of(const ColumnSums& sums, float x0_minus_u_px) {
-  float gx[kTilePx], gxx[kTilePx], gxy[kTilePx];
-  for (int x = 0; x < kTilePx; ++x) {
-    const float dx = x0_minus_u_px + static_cast<float>(x);
-    gx[x] = sums[kG][x] * dx;
-    gxx[x] = gx[x] * dx;
-    gxy[x] = sums[kGdy][x] * dx;
+/// Sums of all quantities at once, always in the same order: halves onto halves.
+EDGESPLAT_INLINE void add_up(const LaneSums& lanes, Moments& out) {
+  float half[kSums][8];
+  for (int k = 0; k < kSums; ++k) {
+    for (int i = 0; i < 8; ++i) half[k][i] = lanes[k][i] + lanes[k][i + 8];
   }
-  return {sum_of(sums[kG]),    sum_of(gx),           sum_of(sums[kGdy]),   sum_of(gxx),
-          sum_of(gxy),         sum_of(sums[kGdy2]),  sum_of(sums[kRed]),   sum_of(sums[kGreen]),
-          sum_of(sums[kBlue]), sum_of(sums[kDepth]), sum_of(sums[kWeight])};
-}
-
-EDGESPLAT_INLINE bool any_active(const Tile& tile) {
-  float sum = 0.0F;
-  for (const auto& row : tile.active) {
-    for (const float active : row) sum += active;
+  float quarter[4 * kSums];
+  for (int k = 0; k < kSums; ++k) {
+    for (int i = 0; i < 4; ++i) quarter[4 * k + i] = half[k][i] + half[k][i + 4];
   }
-  return sum > 0.0F;
+  for (int k = 0; k < kSums; ++k) {
+    out.sums[k] = (quarter[4 * k] + quarter[4 * k + 2]) + (quarter[4 * k + 1] + quarter[4 * k + 3]);
+  }
 }
 
 struct TileTask {
@@ -108,20 +106,23 @@ struct TileTask {
 
 EDGESPLAT_INLINE void reverse_tile_inline(const TileTask& task, Tile& tile) {
   constexpr std::size_t kCheckEvery = 16;
-  for (std::size_t i = 0; i < task.list.size(); ++i) {
+  std::uint32_t active = (1U << splat::kBlocks) - 1;
+  for (std::size_t i = 0; i < task.list.size() && active != 0; ++i) {
     if (i + splat::kPrefetchAhead < task.list.size()) {
-      splat::prefetch(task.splats[task.list[i + splat::kPrefetchAhead]]);
+      __builtin_prefetch(&task.splats[task.list[i + splat::kPrefetchAhead]]);
       __builtin_prefetch(&task.moments[task.slots[i + splat::kPrefetchAhead]], 1);
-      __builtin_prefetch(&task.moments[task.slots[i + splat::kPrefetchAhead]].weight, 1);
     }
-    const Splat& s = task.splats[task.list[i]];
-    const splat::TileRows rows = splat::rows_reached(s, task.y0_px);
-    ColumnSums sums = {};
-    for (int y = rows.first; y <= rows.last; ++y) {
-      add_row(s, task.x0_px, task.y0_px + static_cast<float>(y) - s.v_px, y, tile, sums);
+    const Splat s = task.splats[task.list[i]];  // a copy, see blend_cpu.cpp
+    const splat::Falloff falloff = splat::falloff_of(s);
+    LaneSums sums = {};
+    for (std::uint32_t todo = splat::blocks_reached(s, task.x0_px, task.y0_px) & active; todo != 0;
+         todo &= todo - 1) {
+      const int k = std::countr_zero(todo);
+      add_block(s, falloff, task.x0_px - s.u_px + 4.0F * splat::kPixelX[k],
+                task.y0_px - s.v_px + 4.0F * splat::kPixelY[k], k, tile, sums);
     }
-    task.moments[task.slots[i]] = moments_of(sums, task.x0_px - s.u_px);
-    if (i % kCheckEvery == kCheckEvery - 1 && !any_active(tile)) return;
+    add_up(sums, task.moments[task.slots[i]]);
+    if (i % kCheckEvery == kCheckEvery - 1) active = splat::blocks_active(tile.active);
   }
 }
 
@@ -141,42 +142,34 @@ void load_tile(int column, int row, const splat::View& view, const Pictures& dra
       const float* colour = &drawn.colour[3 * pixel];
       const float by_depth = by_picture.depth_sum.empty() ? 0.0F : by_picture.depth_sum[pixel];
       const float by_alpha = by_picture.alpha.empty() ? 0.0F : by_picture.alpha[pixel];
-      tile.by_red[y][x] = by_colour[0];
-      tile.by_green[y][x] = by_colour[1];
-      tile.by_blue[y][x] = by_colour[2];
-      tile.by_depth[y][x] = by_depth;
+      const int k = splat::block_of(x, y);
+      const int i = splat::pixel_of(x, y);
+      tile.by_red[k][i] = by_colour[0];
+      tile.by_green[k][i] = by_colour[1];
+      tile.by_blue[k][i] = by_colour[2];
+      tile.by_depth[k][i] = by_depth;
       // All that the splats and the background add; alpha is 1 - transmittance.
-      tile.rest[y][x] = by_colour[0] * colour[0] + by_colour[1] * colour[1] + by_colour[2] * colour[2] +
+      tile.rest[k][i] = by_colour[0] * colour[0] + by_colour[1] * colour[1] + by_colour[2] * colour[2] +
                         by_depth * drawn.depth_sum_m[pixel] - by_alpha * (1.0F - drawn.alpha[pixel]);
-      tile.transmittance[y][x] = 1.0F;
-      tile.active[y][x] = 1.0F;
+      tile.transmittance[k][i] = 1.0F;
+      tile.active[k][i] = 1.0F;
     }
   }
 }
 
 SplatBackward finish(const Splat& s, std::span<const Moments> moments) {
-  Moments m{};
+  float m[kSums] = {};
   for (const Moments& part : moments) {
-    m.g += part.g;
-    m.gx += part.gx;
-    m.gy += part.gy;
-    m.gxx += part.gxx;
-    m.gxy += part.gxy;
-    m.gyy += part.gyy;
-    m.red += part.red;
-    m.green += part.green;
-    m.blue += part.blue;
-    m.depth += part.depth;
-    m.weight += part.weight;
+    for (int k = 0; k < kSums; ++k) m[k] += part.sums[k];
   }
-  // power = -(xx dx^2 / 2 + xy dx dy + yy dy^2 / 2) with dx = x - u; alpha = opacity exp(power).
-  return {{s.conic[0] * m.gx + s.conic[1] * m.gy,
-           s.conic[1] * m.gx + s.conic[2] * m.gy,
-           {-0.5F * m.gxx, -m.gxy, -0.5F * m.gyy},
-           m.g / s.opacity,
-           {m.red, m.green, m.blue},
-           m.depth},
-          m.weight};
+  // alpha = opacity exp(-(xx dx^2 / 2 + xy dx dy + yy dy^2 / 2)) with dx = x - u.
+  return {{s.conic[0] * m[kGx] + s.conic[1] * m[kGy],
+           s.conic[1] * m[kGx] + s.conic[2] * m[kGy],
+           {-0.5F * m[kGxx], -m[kGxy], -0.5F * m[kGyy]},
+           m[kG] / s.opacity,
+           {m[kRed], m[kGreen], m[kBlue]},
+           m[kDepth]},
+          m[kWeight]};
 }
 
 }  // namespace

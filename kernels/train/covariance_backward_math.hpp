@@ -19,11 +19,11 @@ EDGESPLAT_HOST_DEVICE inline void rotation_backward(const T* unit, const T* g, T
   by_unit[3] = 2 * (x * (g[7] - g[5]) + y * (g[2] - g[6]) + z * (g[3] - g[1]));
 }
 
-/// Reverse of splat::covariance3d. `by_cov` is dL by the full symmetric matrix, upper triangle xx xy xz yy yz
-/// zz, each off-diagonal element being half of what the pair of them does. Takes a quaternion of any length >
-/// 0; the gradient is across it.
+/// Reverse of splat::covariance3d, for scales in metres. `by_cov` is dL by the full symmetric matrix, upper
+/// triangle xx xy xz yy yz zz, each off-diagonal element being half of what the pair of them does. Takes a
+/// quaternion of any length > 0; the gradient is across it.
 template <typename T>
-EDGESPLAT_HOST_DEVICE inline void covariance3d_backward(const T* quat, const T* log_scale, const T* by_cov,
+EDGESPLAT_HOST_DEVICE inline void covariance3d_backward(const T* quat, const T* scale, const T* by_cov,
                                                         T* by_quat, T* by_log_scale) {
   const T norm = std::sqrt(quat[0] * quat[0] + quat[1] * quat[1] + quat[2] * quat[2] + quat[3] * quat[3]);
   const T unit[4] = {quat[0] / norm, quat[1] / norm, quat[2] / norm, quat[3] / norm};
@@ -34,20 +34,22 @@ EDGESPLAT_HOST_DEVICE inline void covariance3d_backward(const T* quat, const T* 
   const T g[9] = {by_cov[0], by_cov[1], by_cov[2], by_cov[1], by_cov[3],
                   by_cov[4], by_cov[2], by_cov[4], by_cov[5]};
   T by_r[9];
+  EDGESPLAT_UNROLL
   for (int j = 0; j < 3; ++j) {
-    const T scale = std::exp(log_scale[j]);
     T along = 0;
+    EDGESPLAT_UNROLL
     for (int i = 0; i < 3; ++i) {
       // Covariance M M^T with M = R S: dL/dM = 2 G M.
-      const T by_m = 2 * scale * (g[3 * i] * r[j] + g[3 * i + 1] * r[3 + j] + g[3 * i + 2] * r[6 + j]);
+      const T by_m = 2 * scale[j] * (g[3 * i] * r[j] + g[3 * i + 1] * r[3 + j] + g[3 * i + 2] * r[6 + j]);
       along += by_m * r[3 * i + j];
-      by_r[3 * i + j] = by_m * scale;
+      by_r[3 * i + j] = by_m * scale[j];
     }
-    by_log_scale[j] = along * scale;
+    by_log_scale[j] = along * scale[j];
   }
   T by_unit[4];
   rotation_backward(unit, by_r, by_unit);
   const T radial = by_unit[0] * x + by_unit[1] * y + by_unit[2] * z + by_unit[3] * w;
+  EDGESPLAT_UNROLL
   for (int i = 0; i < 4; ++i) by_quat[i] = (by_unit[i] - unit[i] * radial) / norm;
 }
 

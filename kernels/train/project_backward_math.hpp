@@ -50,6 +50,7 @@ EDGESPLAT_HOST_DEVICE inline void project_backward(const splat::CameraT<T>& c, c
                                                    ProjectBackward<T>& out) {
   const T* r = c.rotation;
   T p[3];
+  EDGESPLAT_UNROLL
   for (int i = 0; i < 3; ++i) {
     p[i] = r[3 * i] * mean[0] + r[3 * i + 1] * mean[1] + r[3 * i + 2] * mean[2] + c.translation[i];
   }
@@ -60,6 +61,7 @@ EDGESPLAT_HOST_DEVICE inline void project_backward(const splat::CameraT<T>& c, c
   const T y = y_free < -y_limit ? -y_limit : (y_free > y_limit ? y_limit : y_free);
   const T fx_z = c.fx * inv_z, fy_z = c.fy * inv_z;
   T a[3], b[3];  // rows of J W
+  EDGESPLAT_UNROLL
   for (int i = 0; i < 3; ++i) {
     a[i] = fx_z * (r[i] - x * r[6 + i]);
     b[i] = fy_z * (r[3 + i] - y * r[6 + i]);
@@ -68,7 +70,9 @@ EDGESPLAT_HOST_DEVICE inline void project_backward(const splat::CameraT<T>& c, c
   inverse2d_backward(conic, by.conic, by_cov);
   const T half_xy = by_cov[1] / 2;
   int k = 0;
+  EDGESPLAT_UNROLL
   for (int i = 0; i < 3; ++i) {
+    EDGESPLAT_UNROLL
     for (int j = i; j < 3; ++j) {
       out.cov3d[k++] =
           by_cov[0] * a[i] * a[j] + half_xy * (a[i] * b[j] + a[j] * b[i]) + by_cov[2] * b[i] * b[j];
@@ -78,6 +82,7 @@ EDGESPLAT_HOST_DEVICE inline void project_backward(const splat::CameraT<T>& c, c
   symmetric_times(cov3d, a, sa);
   symmetric_times(cov3d, b, sb);
   T a_along = 0, b_along = 0, by_x = 0, by_y = 0;
+  EDGESPLAT_UNROLL
   for (int i = 0; i < 3; ++i) {
     by_a[i] = 2 * by_cov[0] * sa[i] + by_cov[1] * sb[i];
     by_b[i] = by_cov[1] * sa[i] + 2 * by_cov[2] * sb[i];
@@ -94,20 +99,25 @@ EDGESPLAT_HOST_DEVICE inline void project_backward(const splat::CameraT<T>& c, c
   by_p[1] = fy_z * by.v + inv_z * by_y;
   by_p[2] = by.depth - inv_z * (fx_z * p[0] * by.u + fy_z * p[1] * by.v + a_along + b_along + x_free * by_x +
                                 y_free * by_y);
+  EDGESPLAT_UNROLL
   for (int i = 0; i < 3; ++i) out.mean[i] = r[i] * by_p[0] + r[3 + i] * by_p[1] + r[6 + i] * by_p[2];
   // dL by the rows of the rotation: from the Jacobian and from p = R m + t. A row g of it turns the camera by
   // g x r.
   T turn[3] = {0, 0, 0};
+  EDGESPLAT_UNROLL
   for (int row = 0; row < 3; ++row) {
     T g[3], axis[3];
+    EDGESPLAT_UNROLL
     for (int i = 0; i < 3; ++i) {
       const T jacobian = row == 0 ? fx_z * by_a[i]
                                   : (row == 1 ? fy_z * by_b[i] : -(x * fx_z * by_a[i] + y * fy_z * by_b[i]));
       g[i] = jacobian + by_p[row] * mean[i];
     }
     cross(g, r + 3 * row, axis);
+    EDGESPLAT_UNROLL
     for (int i = 0; i < 3; ++i) turn[i] += axis[i];
   }
+  EDGESPLAT_UNROLL
   for (int i = 0; i < 3; ++i) {
     out.pose[i] = turn[i];
     out.pose[3 + i] = by_p[i];

@@ -76,7 +76,9 @@ TEST_P(Projecting, ReverseAgreesWithDifferences) {
   project_backward(c.camera, c.mean.data(), cov3d, c.projected().conic, c.by, out);
   std::array<double, 4> by_quat{};
   std::array<double, 3> by_scale{};
-  covariance3d_backward(c.quat.data(), c.log_scale.data(), out.cov3d, by_quat.data(), by_scale.data());
+  const std::array<double, 3> scale{std::exp(c.log_scale[0]), std::exp(c.log_scale[1]),
+                                    std::exp(c.log_scale[2])};
+  covariance3d_backward(c.quat.data(), scale.data(), out.cov3d, by_quat.data(), by_scale.data());
   const auto loss = [&c] { return c.loss(); };
   const auto expect = [](double computed, double expected) {
     EXPECT_NEAR(computed, expected, 1e-5 * std::abs(expected) + 1e-3);
