@@ -203,12 +203,12 @@ Result<StepReport> Optimiser::step(const TrainingView& view) {
   report.times.loss = watch.lap();
   const auto by_splat =
       train::blend_backward(projected.splats, tiles, view.view, {p.colour, p.depth_sum_m, p.alpha},
-                            {p.by_colour, p.by_depth_sum, p.by_alpha});
-  auto gradients = train::gaussian_backward(gaussians, view.view, projected.splats, by_splat);
-  report.by_pose = gradients.pose;
-  regularise(gradients, report);
+                            {p.by_colour, p.by_depth_sum, p.by_alpha}, scratch_);
+  train::gaussian_backward(gaussians, view.view, projected.splats, by_splat, gradients_);
+  report.by_pose = gradients_.pose;
+  regularise(gradients_, report);
   report.times.backward = watch.lap();
-  update(gradients, 0.5F * static_cast<float>(view.view.width_px));
+  update(gradients_, 0.5F * static_cast<float>(view.view.width_px));
   report.times.update = watch.lap();
   return report;
 }

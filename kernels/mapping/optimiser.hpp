@@ -98,7 +98,10 @@ class Optimiser {
   ExposureTable exposures_;
   RowChanges changes_;
   std::vector<RowStatistics> statistics_;
+  // Kept from step to step for their memory only.
   Pictures pictures_;
+  train::BlendBackwardScratch scratch_;
+  train::GaussianGradients gradients_;
   std::uint64_t rows_refused_ = 0;
 };
 

@@ -15,15 +15,13 @@ namespace {
 
 /// A tile's accumulators, channel by channel so that a block of pixels is a vector.
 struct Tile {
-  TilePlane transmittance;
-  TilePlane active;  ///< 1 until the pixel is full, then 0
+  TilePlane transmittance;  ///< negative, its size kept, once the pixel is full
   TilePlane red, green, blue, depth;
 };
 
 void clear(Tile& tile) {
   tile = {};
   std::fill_n(&tile.transmittance[0][0], kBlocks * kBlockPixels, 1.0F);
-  std::fill_n(&tile.active[0][0], kBlocks * kBlockPixels, 1.0F);
 }
 
 /// Adds one splat to block k, whose first pixel lies at (left, top) from its centre.
@@ -33,14 +31,13 @@ EDGESPLAT_INLINE void add_to_block(const Splat& s, const Falloff f, float left, 
     const float alpha = blended_alpha(raw_alpha(f, left + kPixelX[i], top + kPixelY[i]));
     const float before = tile.transmittance[k][i];
     const float after = before * (1.0F - alpha);
-    const float active = after >= kMinTransmittance ? tile.active[k][i] : 0.0F;
-    const float weight = active * alpha * before;
+    const bool takes = after >= kMinTransmittance;
+    const float weight = takes ? alpha * before : 0.0F;
     tile.red[k][i] = std::fma(weight, s.rgb[0], tile.red[k][i]);
     tile.green[k][i] = std::fma(weight, s.rgb[1], tile.green[k][i]);
     tile.blue[k][i] = std::fma(weight, s.rgb[2], tile.blue[k][i]);
     tile.depth[k][i] = std::fma(weight, s.depth_m, tile.depth[k][i]);
-    tile.transmittance[k][i] = active > 0.0F ? after : before;
-    tile.active[k][i] = active;
+    tile.transmittance[k][i] = takes ? after : -std::abs(before);
   }
 }
 
@@ -54,7 +51,7 @@ void write_tile(const Tile& tile, int column, int row, const View& view, const R
                          static_cast<std::size_t>(x0 + x);
       const int k = block_of(x, y);
       const int i = pixel_of(x, y);
-      const float left = tile.transmittance[k][i];
+      const float left = std::abs(tile.transmittance[k][i]);
       out.colour[3 * pixel] = tile.red[k][i] + left * options.background[0];
       out.colour[3 * pixel + 1] = tile.green[k][i] + left * options.background[1];
       out.colour[3 * pixel + 2] = tile.blue[k][i] + left * options.background[2];
@@ -79,7 +76,7 @@ EDGESPLAT_INLINE void blend_tile_inline(std::span<const Splat> splats, std::span
       const int k = std::countr_zero(todo);
       add_to_block(s, falloff, x0 - s.u_px + 4.0F * kPixelX[k], y0 - s.v_px + 4.0F * kPixelY[k], k, tile);
     }
-    if (i % kCheckEvery == kCheckEvery - 1) active = blocks_active(tile.active);
+    if (i % kCheckEvery == kCheckEvery - 1) active = blocks_active(tile.transmittance);
   }
 }
 

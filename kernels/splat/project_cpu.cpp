@@ -24,6 +24,7 @@ void project_block(const GaussianSpans& g, const View& view, const RenderOptions
   const CameraT<float> camera = camera_of(view);
   const std::size_t sh_floats = g.sh_floats_each();
   Splat splat{};
+  block.splats.reserve(last - first);
   for (std::size_t i = first; i < last; ++i) {
     const SplatInput in{&g.means_m[3 * i],   &g.log_scales[3 * i], &g.quats_xyzw[4 * i],
                         g.opacity_logits[i], &g.sh[sh_floats * i], g.sh_degree};
@@ -52,7 +53,10 @@ Projected project_cpu(const GaussianSpans& gaussians, const View& view, const Re
     project_block(gaussians, view, options, b * kBlock, std::min(count, (b + 1) * kBlock), blocks[b]);
   });
   Projected out;
+  std::size_t visible_count = 0;
+  for (const Block& block : blocks) visible_count += block.splats.size();
   std::vector<Splat> visible;
+  visible.reserve(visible_count);
   for (const Block& block : blocks) {
     visible.insert(visible.end(), block.splats.begin(), block.splats.end());
     out.not_finite += block.not_finite;

@@ -62,15 +62,13 @@ EDGESPLAT_INLINE std::uint32_t blocks_reached(const Splat& s, float x0, float y0
   return reached;
 }
 
-/// Bit b is set where some pixel of block b still takes splats.
-EDGESPLAT_INLINE std::uint32_t blocks_active(const TilePlane& active) {
+/// Bit b is set where some pixel of block b still takes splats: those have a transmittance above 0.
+EDGESPLAT_INLINE std::uint32_t blocks_active(const TilePlane& transmittance) {
   std::uint32_t blocks = 0;
   for (unsigned b = 0; b < kBlocks; ++b) {
-    float sum = 0.0F;
-    float part[4] = {};
-    for (std::size_t i = 0; i < kBlockPixels; ++i) part[i % 4] += active[b][i];
-    for (const float p : part) sum += p;
-    blocks |= (sum > 0.0F ? 1U : 0U) << b;
+    std::uint32_t any = 0;
+    for (std::size_t i = 0; i < kBlockPixels; ++i) any |= transmittance[b][i] > 0.0F ? 1U : 0U;
+    blocks |= any << b;
   }
   return blocks;
 }

@@ -24,21 +24,17 @@ using splat::TilePlane;
 
 /// A tile's pixels, channel by channel so that a block of 16 is a vector.
 struct Tile {
-  TilePlane transmittance;
-  TilePlane active;  ///< 1 until the pixel is full, then 0
-  TilePlane rest;    ///< dL by picture times what the splats still to come and the background add to it
+  TilePlane transmittance;  ///< 0 once the pixel is full
+  TilePlane
+      rest;  ///< dL by picture times what the splats still to come and the background add; 0 once it is full
   TilePlane by_red, by_green, by_blue, by_depth;
 };
 
 /// Sums over the pixels of one tile for one splat: moments about its centre of g, dL by the exponent of its
 /// falloff, and dL by what it adds.
-enum Sum { kG, kGx, kGy, kGxx, kGxy, kGyy, kRed, kGreen, kBlue, kDepth, kWeight, kUnused, kSums };
+enum Sum { kG, kGx, kGy, kGxx, kGxy, kGyy, kRed, kGreen, kBlue, kDepth, kWeight, kUsed, kSums = 16 };
 /// Place by place in the block, to be added up at the end.
 using LaneSums = float[kSums][kBlockPixels];
-
-struct Moments {
-  float sums[kSums];
-};
 
 /// One splat on block k, whose first pixel lies at (left, top) from its centre. With T the transmittance
 /// before it, q = dL by picture times what it would add at weight 1, R the rest behind it: dL/dalpha = T q -
@@ -52,16 +48,16 @@ EDGESPLAT_INLINE void add_block(const Splat& s, const splat::Falloff f, float le
     const float alpha = splat::blended_alpha(raw);
     const float before = tile.transmittance[k][i];
     const float after = before * (1.0F - alpha);
-    const float active = after >= splat::kMinTransmittance ? tile.active[k][i] : 0.0F;
-    const float weight = active * alpha * before;
+    const bool takes = after >= splat::kMinTransmittance;
+    const float weight = takes ? alpha * before : 0.0F;
     const float by_red = tile.by_red[k][i], by_green = tile.by_green[k][i];
     const float by_blue = tile.by_blue[k][i], by_depth = tile.by_depth[k][i];
     const float q = std::fma(by_red, s.rgb[0],
                              std::fma(by_green, s.rgb[1], std::fma(by_blue, s.rgb[2], by_depth * s.depth_m)));
-    const float rest = std::fma(-weight, q, tile.rest[k][i]);
+    const float rest = takes ? std::fma(-weight, q, tile.rest[k][i]) : 0.0F;
     const float by_alpha = std::fma(before, q, -rest / (1.0F - alpha));
     // alpha is 0 where it is skipped and constant where it is cut.
-    const float g = (raw < splat::kMaxAlpha ? active : 0.0F) * alpha * by_alpha;
+    const float g = (takes && raw < splat::kMaxAlpha ? alpha : 0.0F) * by_alpha;
     const float gx = g * dx;
     const float gy = g * dy;
     sums[kG][i] += g;
@@ -76,23 +72,27 @@ EDGESPLAT_INLINE void add_block(const Splat& s, const splat::Falloff f, float le
     sums[kDepth][i] = std::fma(weight, by_depth, sums[kDepth][i]);
     sums[kWeight][i] += weight;
     tile.rest[k][i] = rest;
-    tile.transmittance[k][i] = active > 0.0F ? after : before;
-    tile.active[k][i] = active;
+    tile.transmittance[k][i] = takes ? after : 0.0F;
   }
 }
 
-/// Sums of all quantities at once, always in the same order: halves onto halves.
-EDGESPLAT_INLINE void add_up(const LaneSums& lanes, Moments& out) {
-  float half[kSums][8];
-  for (int k = 0; k < kSums; ++k) {
-    for (int i = 0; i < 8; ++i) half[k][i] = lanes[k][i] + lanes[k][i + 8];
-  }
+/// Sums of all quantities at once, always in the same order: halves onto halves. The loops stay loops: only
+/// then does g++ make shuffles of whole vectors of them.
+EDGESPLAT_INLINE void add_up(const LaneSums& lanes, TileSums& out) {
+  float half[8 * kSums];
   float quarter[4 * kSums];
+#pragma GCC unroll 1
   for (int k = 0; k < kSums; ++k) {
-    for (int i = 0; i < 4; ++i) quarter[4 * k + i] = half[k][i] + half[k][i + 4];
+    for (int i = 0; i < 8; ++i) half[8 * k + i] = lanes[k][i] + lanes[k][i + 8];
   }
+#pragma GCC unroll 1
   for (int k = 0; k < kSums; ++k) {
-    out.sums[k] = (quarter[4 * k] + quarter[4 * k + 2]) + (quarter[4 * k + 1] + quarter[4 * k + 3]);
+    for (int i = 0; i < 4; ++i) quarter[4 * k + i] = half[8 * k + i] + half[8 * k + i + 4];
+  }
+#pragma GCC unroll 1
+  for (int k = 0; k < kSums; ++k) {
+    const float* q = quarter + 4 * k;
+    out.sums[k] = (q[0] + q[2]) + (q[1] + q[3]);
   }
 }
 
@@ -100,30 +100,33 @@ struct TileTask {
   std::span<const Splat> splats;
   std::span<const std::uint32_t> list;
   std::span<const std::uint32_t> slots;
-  std::span<Moments> moments;  ///< by slot, zero on entry
+  std::span<TileSums> by_slot;
   float x0_px, y0_px;
 };
 
 EDGESPLAT_INLINE void reverse_tile_inline(const TileTask& task, Tile& tile) {
   constexpr std::size_t kCheckEvery = 16;
   std::uint32_t active = (1U << splat::kBlocks) - 1;
-  for (std::size_t i = 0; i < task.list.size() && active != 0; ++i) {
+  LaneSums sums = {};
+  std::size_t i = 0;
+  for (; i < task.list.size() && active != 0; ++i) {
     if (i + splat::kPrefetchAhead < task.list.size()) {
       __builtin_prefetch(&task.splats[task.list[i + splat::kPrefetchAhead]]);
-      __builtin_prefetch(&task.moments[task.slots[i + splat::kPrefetchAhead]], 1);
+      __builtin_prefetch(&task.by_slot[task.slots[i + splat::kPrefetchAhead]], 1);
     }
     const Splat s = task.splats[task.list[i]];  // a copy, see blend_cpu.cpp
     const splat::Falloff falloff = splat::falloff_of(s);
-    LaneSums sums = {};
+    for (int k = 0; k < kUsed; ++k) std::fill_n(sums[k], kBlockPixels, 0.0F);
     for (std::uint32_t todo = splat::blocks_reached(s, task.x0_px, task.y0_px) & active; todo != 0;
          todo &= todo - 1) {
       const int k = std::countr_zero(todo);
       add_block(s, falloff, task.x0_px - s.u_px + 4.0F * splat::kPixelX[k],
                 task.y0_px - s.v_px + 4.0F * splat::kPixelY[k], k, tile, sums);
     }
-    add_up(sums, task.moments[task.slots[i]]);
-    if (i % kCheckEvery == kCheckEvery - 1) active = splat::blocks_active(tile.active);
+    add_up(sums, task.by_slot[task.slots[i]]);
+    if (i % kCheckEvery == kCheckEvery - 1) active = splat::blocks_active(tile.transmittance);
   }
+  for (; i < task.list.size(); ++i) task.by_slot[task.slots[i]] = {};
 }
 
 EDGESPLAT_SIMD_VARIANTS(reverse_tile, (const TileTask& task, Tile& tile), (task, tile))
@@ -152,15 +155,14 @@ void load_tile(int column, int row, const splat::View& view, const Pictures& dra
       tile.rest[k][i] = by_colour[0] * colour[0] + by_colour[1] * colour[1] + by_colour[2] * colour[2] +
                         by_depth * drawn.depth_sum_m[pixel] - by_alpha * (1.0F - drawn.alpha[pixel]);
       tile.transmittance[k][i] = 1.0F;
-      tile.active[k][i] = 1.0F;
     }
   }
 }
 
-SplatBackward finish(const Splat& s, std::span<const Moments> moments) {
+SplatBackward finish(const Splat& s, std::span<const TileSums> parts) {
   float m[kSums] = {};
-  for (const Moments& part : moments) {
-    for (int k = 0; k < kSums; ++k) m[k] += part.sums[k];
+  for (const TileSums& part : parts) {
+    for (int k = 0; k < kUsed; ++k) m[k] += part.sums[k];
   }
   // alpha = opacity exp(-(xx dx^2 / 2 + xy dx dy + yy dy^2 / 2)) with dx = x - u.
   return {{s.conic[0] * m[kGx] + s.conic[1] * m[kGy],
@@ -174,9 +176,10 @@ SplatBackward finish(const Splat& s, std::span<const Moments> moments) {
 
 }  // namespace
 
-std::vector<SplatBackward> blend_backward(std::span<const Splat> splats, const splat::TileLists& tiles,
-                                          const splat::View& view, const Pictures& drawn,
-                                          const PictureGradients& by_picture) {
+std::span<const SplatBackward> blend_backward(std::span<const Splat> splats, const splat::TileLists& tiles,
+                                              const splat::View& view, const Pictures& drawn,
+                                              const PictureGradients& by_picture,
+                                              BlendBackwardScratch& scratch) {
   const auto pixels = static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
   const auto is_picture = [pixels](std::span<const float> values) {
     return values.empty() || values.size() == pixels;
@@ -185,23 +188,27 @@ std::vector<SplatBackward> blend_backward(std::span<const Splat> splats, const s
                       drawn.alpha.size() == pixels && by_picture.colour.size() == 3 * pixels &&
                       is_picture(by_picture.depth_sum) && is_picture(by_picture.alpha),
                   "pictures of the view's size");
-  std::vector<Moments> moments(tiles.splats.size());
+  scratch.by_slot.resize(tiles.splats.size());
+  scratch.by_splat.resize(splats.size());
   const auto reverse_tile = fastest_reverse_tile();
   tbb::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
     const int column = t % tiles.columns;
     const int row = t / tiles.columns;
     Tile tile;
     load_tile(column, row, view, drawn, by_picture, tile);
-    reverse_tile({splats, tiles.tile(column, row), tiles.tile_slots(column, row), moments,
+    reverse_tile({splats, tiles.tile(column, row), tiles.tile_slots(column, row), scratch.by_slot,
                   static_cast<float>(column * kTilePx), static_cast<float>(row * kTilePx)},
                  tile);
   });
-  std::vector<SplatBackward> out(splats.size());
-  tbb::parallel_for(std::size_t{0}, splats.size(), [&](std::size_t i) {
-    const std::size_t first = tiles.splat_starts[i];
-    out[i] = finish(splats[i], std::span(moments).subspan(first, tiles.splat_starts[i + 1] - first));
+  constexpr std::size_t kBlock = 1024;
+  tbb::parallel_for(std::size_t{0}, (splats.size() + kBlock - 1) / kBlock, [&](std::size_t b) {
+    for (std::size_t i = b * kBlock; i < std::min(splats.size(), (b + 1) * kBlock); ++i) {
+      const std::size_t first = tiles.splat_starts[i];
+      scratch.by_splat[i] =
+          finish(splats[i], std::span(scratch.by_slot).subspan(first, tiles.splat_starts[i + 1] - first));
+    }
   });
-  return out;
+  return scratch.by_splat;
 }
 
 }  // namespace edgesplat::train

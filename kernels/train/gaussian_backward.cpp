@@ -83,6 +83,7 @@ void store_lane(const Source& source, const splat::Splat& s, const SplatGradient
   for (std::size_t k = 0; k < 6; ++k) by_pose[k] = lanes.pose[k][lane];
   reverse_colour(source, s, by, out, by_pose);
   const std::size_t used = ParameterRow::size(source.gaussians.sh_degree);
+  std::fill(out + used, out + ParameterRow::stride(source.gaussians.sh_degree), 0.0F);
   if (!splat::all_finite(out, static_cast<int>(used)) || !splat::all_finite(by_pose, 6)) {
     std::fill_n(out, used, 0.0F);
     return;
@@ -145,11 +146,10 @@ void reverse_block(const Source& source, const Splats& in, const Index& index, s
 
 }  // namespace
 
-GaussianGradients gaussian_backward(const splat::GaussianSpans& gaussians, const splat::View& view,
-                                    std::span<const splat::Splat> splats,
-                                    std::span<const SplatBackward> by_splat) {
+void gaussian_backward(const splat::GaussianSpans& gaussians, const splat::View& view,
+                       std::span<const splat::Splat> splats, std::span<const SplatBackward> by_splat,
+                       GaussianGradients& out) {
   EDGESPLAT_CHECK(gaussians.consistent() && splats.size() == by_splat.size(), "a gradient for every splat");
-  GaussianGradients out;
   out.stride = ParameterRow::stride(gaussians.sh_degree);
   Index index = by_row(splats, gaussians.size());
   out.values.resize(index.rows.size() * out.stride);
@@ -160,11 +160,11 @@ GaussianGradients gaussian_backward(const splat::GaussianSpans& gaussians, const
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     reverse_block(source, {splats, by_splat}, index, b, out, poses[b]);
   });
+  out.pose = {};
   for (const Pose& pose : poses) {
     for (std::size_t k = 0; k < pose.size(); ++k) out.pose[k] += pose[k];
   }
   out.rows = std::move(index.rows);
-  return out;
 }
 
 }  // namespace edgesplat::train

@@ -35,12 +35,11 @@ struct GaussianGradients {
   }
 };
 
-/// Reverse of splat::project: from gradients by the splats (blend_backward, same order as `splats`) to those
-/// by the Gaussians. A Gaussian whose gradient is not finite gets zeros. Deterministic whatever the number of
-/// threads.
-[[nodiscard]] GaussianGradients gaussian_backward(const splat::GaussianSpans& gaussians,
-                                                  const splat::View& view,
-                                                  std::span<const splat::Splat> splats,
-                                                  std::span<const SplatBackward> by_splat);
+/// Reverse of splat::project into `out`, whose memory is used again: from gradients by the splats
+/// (blend_backward, same order as `splats`) to those by the Gaussians. A Gaussian whose gradient is not
+/// finite gets zeros. Deterministic whatever the number of threads.
+void gaussian_backward(const splat::GaussianSpans& gaussians, const splat::View& view,
+                       std::span<const splat::Splat> splats, std::span<const SplatBackward> by_splat,
+                       GaussianGradients& out);
 
 }  // namespace edgesplat::train

@@ -53,9 +53,12 @@ GaussianGradients gradients_of(const gaussian::GaussianCloud& cloud, const splat
   const auto tiles = splat::make_tile_lists(projected.splats, view.width_px, view.height_px);
   std::vector<float> colour(loss.colour.size()), depth(loss.depth.size()), alpha(loss.alpha.size());
   splat::blend(projected.splats, tiles, view, options, {colour, depth, alpha});
+  BlendBackwardScratch scratch;
   const auto by_splat = blend_backward(projected.splats, tiles, view, {colour, depth, alpha},
-                                       {loss.colour, loss.depth, loss.alpha});
-  return gaussian_backward(splat::spans_of(cloud), view, projected.splats, by_splat);
+                                       {loss.colour, loss.depth, loss.alpha}, scratch);
+  GaussianGradients gradients;
+  gaussian_backward(splat::spans_of(cloud), view, projected.splats, by_splat, gradients);
+  return gradients;
 }
 
 struct ChainCase {
