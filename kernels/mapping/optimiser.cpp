@@ -197,7 +197,6 @@ Result<StepReport> Optimiser::step(const TrainingView& view) {
                 splat::project(core::Backend::kCpu, gaussians, view.view, options_.render));
   const auto tiles = splat::make_tile_lists(projected.splats, view.view.width_px, view.view.height_px);
   splat::blend(projected.splats, tiles, view.view, options_.render, {p.colour, p.depth_sum_m, p.alpha});
-  report.visible = projected.splats.size();
   report.times.forward = watch.lap();
   compare(view, report);
   report.times.loss = watch.lap();
@@ -206,6 +205,7 @@ Result<StepReport> Optimiser::step(const TrainingView& view) {
                             {p.by_colour, p.by_depth_sum, p.by_alpha}, scratch_);
   train::gaussian_backward(gaussians, view.view, projected.splats, by_splat, gradients_);
   report.by_pose = gradients_.pose;
+  report.visible = gradients_.rows.size();
   regularise(gradients_, report);
   report.times.backward = watch.lap();
   update(gradients_, 0.5F * static_cast<float>(view.view.width_px));

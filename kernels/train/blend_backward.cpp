@@ -162,7 +162,7 @@ void load_tile(int column, int row, const splat::View& view, const Pictures& dra
 SplatBackward finish(const Splat& s, std::span<const TileSums> parts) {
   float m[kSums] = {};
   for (const TileSums& part : parts) {
-    for (int k = 0; k < kUsed; ++k) m[k] += part.sums[k];
+    for (int k = 0; k < kSums; ++k) m[k] += part.sums[k];
   }
   // alpha = opacity exp(-(xx dx^2 / 2 + xy dx dy + yy dy^2 / 2)) with dx = x - u.
   return {{s.conic[0] * m[kGx] + s.conic[1] * m[kGy],

@@ -91,19 +91,26 @@ void store_lane(const Source& source, const splat::Splat& s, const SplatGradient
   for (std::size_t k = 0; k < 6; ++k) pose[k] += static_cast<double>(by_pose[k]);
 }
 
+struct Splats {
+  std::span<const splat::Splat> splats;
+  std::span<const SplatBackward> by_splat;
+};
+
 /// Which splat shows each row of the cloud, and the rows that one does.
 struct Index {
   std::vector<std::uint32_t> rows;    ///< ascending
   std::vector<std::uint32_t> splats;  ///< [rows]
 };
 
-Index by_row(std::span<const splat::Splat> splats, std::size_t gaussians) {
+/// Only splats that some pixel shows: those hidden behind others have no gradient, and stay as they are.
+Index by_row(const Splats& in, std::size_t gaussians) {
   std::vector<std::uint32_t> splat_of(gaussians, kUnseen);
-  for (std::size_t i = 0; i < splats.size(); ++i)
-    splat_of[splats[i].gaussian] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i < in.splats.size(); ++i) {
+    if (in.by_splat[i].weight > 0.0F) splat_of[in.splats[i].gaussian] = static_cast<std::uint32_t>(i);
+  }
   Index index;
-  index.rows.reserve(splats.size());
-  index.splats.reserve(splats.size());
+  index.rows.reserve(in.splats.size());
+  index.splats.reserve(in.splats.size());
   for (std::size_t row = 0; row < gaussians; ++row) {
     if (splat_of[row] == kUnseen) continue;
     index.rows.push_back(static_cast<std::uint32_t>(row));
@@ -111,11 +118,6 @@ Index by_row(std::span<const splat::Splat> splats, std::size_t gaussians) {
   }
   return index;
 }
-
-struct Splats {
-  std::span<const splat::Splat> splats;
-  std::span<const SplatBackward> by_splat;
-};
 
 void reverse_block(const Source& source, const Splats& in, const Index& index, std::size_t block,
                    GaussianGradients& out, Pose& pose) {
@@ -151,7 +153,7 @@ void gaussian_backward(const splat::GaussianSpans& gaussians, const splat::View&
                        GaussianGradients& out) {
   EDGESPLAT_CHECK(gaussians.consistent() && splats.size() == by_splat.size(), "a gradient for every splat");
   out.stride = ParameterRow::stride(gaussians.sh_degree);
-  Index index = by_row(splats, gaussians.size());
+  Index index = by_row({splats, by_splat}, gaussians.size());
   out.values.resize(index.rows.size() * out.stride);
   out.sightings.resize(index.rows.size());
   const std::size_t blocks = (index.rows.size() + kBlock - 1) / kBlock;

@@ -21,7 +21,8 @@ struct Sighting {
   float radius_px;           ///< larger half of its box on the screen
 };
 
-/// dL by the parameters of the Gaussians that a picture shows, and by its pose.
+/// dL by the parameters of the Gaussians that a picture shows (in front of the others in some pixel, at
+/// least), and by its pose.
 struct GaussianGradients {
   std::size_t stride = 0;
   std::vector<std::uint32_t> rows;  ///< [V] ascending

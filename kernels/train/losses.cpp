@@ -3,6 +3,7 @@
 #include "kernels/train/losses.hpp"
 
 #include "common/base/check.hpp"
+#include "kernels/core/simd_variants.hpp"
 #include "kernels/train/ssim.hpp"
 
 #include <tbb/parallel_for.h>
@@ -28,18 +29,55 @@ double sum_over_blocks(std::size_t pixels, const Block& block) {
   return sum;
 }
 
+struct L1Run {
+  const float* __restrict drawn;
+  const float* __restrict target;
+  float* __restrict by_drawn;
+  std::size_t count;
+  float scale;
+  double& sum;
+};
+
+/// L1 of a run of floats: scale times its gradient, and how far apart they are. The sums of 16 places are
+/// kept apart so that the loop becomes vector operations.
+EDGESPLAT_INLINE void l1_run_inline(const L1Run& run) {
+  constexpr std::size_t kLanes = 16;
+  float sums[kLanes] = {};
+  const float scale = run.scale;
+  const std::size_t whole = run.count / kLanes * kLanes;
+  for (std::size_t first = 0; first < whole; first += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const float d = run.drawn[first + k] - run.target[first + k];
+      sums[k] += std::abs(d);
+      run.by_drawn[first + k] = d > 0.0F ? scale : (d < 0.0F ? -scale : 0.0F);
+    }
+  }
+  for (std::size_t i = whole; i < run.count; ++i) {
+    const float d = run.drawn[i] - run.target[i];
+    sums[i - whole] += std::abs(d);
+    run.by_drawn[i] = d > 0.0F ? scale : (d < 0.0F ? -scale : 0.0F);
+  }
+  double sum = 0.0;
+  for (const float part : sums) sum += static_cast<double>(part);
+  run.sum = sum;
+}
+
+EDGESPLAT_SIMD_VARIANTS(l1_run, (const L1Run& run), (run))
+
 double l1_backward(const ColourPair& pair, float scale, std::span<float> by_drawn) {
+  const auto l1_run = fastest_l1_run();
   return sum_over_blocks(pair.pixels(), [&](std::size_t first, std::size_t last) {
     double sum = 0.0;
+    if (pair.weight.empty()) {
+      l1_run({&pair.drawn[3 * first], &pair.target[3 * first], &by_drawn[3 * first], 3 * (last - first),
+              scale, sum});
+      return sum;
+    }
     for (std::size_t pixel = first; pixel < last; ++pixel) {
-      const float w = pair.weight.empty() ? 1.0F : pair.weight[pixel];
-      float apart = 0.0F;
-      for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
-        const float d = pair.drawn[i] - pair.target[i];
-        apart += std::abs(d);
-        by_drawn[i] = d > 0.0F ? scale * w : (d < 0.0F ? -scale * w : 0.0F);
-      }
-      sum += static_cast<double>(w * apart);
+      const float w = pair.weight[pixel];
+      double apart = 0.0;
+      l1_run({&pair.drawn[3 * pixel], &pair.target[3 * pixel], &by_drawn[3 * pixel], 3, scale * w, apart});
+      sum += static_cast<double>(w) * apart;
     }
     return sum;
   });

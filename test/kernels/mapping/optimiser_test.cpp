@@ -119,6 +119,23 @@ TEST_F(OptimiserTest, TellsWhichRowsChanged) {
   EXPECT_EQ(optimiser.changed_since(before_adding).front(), 50U);
 }
 
+TEST_F(OptimiserTest, WhatIsHiddenBehindOthersStaysAsItIs) {
+  AnalyticScene scene(11, 1, 1);
+  auto rows = scene.truth;
+  for (int i = 0; i < 6; ++i) rows.append_row(scene.truth, 0);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows.means_m[3 * i] = rows.means_m[3 * i + 1] = 0.0F;
+    rows.means_m[3 * i + 2] = 2.0F + static_cast<float>(i);
+    std::fill_n(&rows.log_scales[3 * i], 3, 4.0F);
+    rows.opacity_logits[i] = 8.0F;
+  }
+  Optimiser optimiser = make(quick(), rows);
+  EXPECT_EQ(optimiser.step(scene.shots[0].training())->visible, 1U)
+      << "two of alpha 0.99 would leave too little";
+  EXPECT_EQ(optimiser.statistics()[6].sightings, 0U);
+  EXPECT_EQ(optimiser.cloud().sh[3 * 6], rows.sh[3 * 6]);
+}
+
 TEST_F(OptimiserTest, RemovedRowsTakeTheirStateAlong) {
   AnalyticScene scene(6, 60, 3);
   Optimiser whole = make(quick(), scene.perturbed(1.0));
