@@ -41,6 +41,7 @@ struct CameraModel {
   [[nodiscard]] bool contains(const Eigen::Vector2d& pixel, double border_px = 0.0) const;
   /// The same camera for a picture scaled by `factor` (size rounded, intrinsics exact for the rounded size).
   [[nodiscard]] CameraModel scaled(double factor) const;
+  bool operator==(const CameraModel&) const = default;
 };
 
 }  // namespace edgesplat::geometry

@@ -51,6 +51,7 @@ Result<StoredView> make_view(const map::Keyframe& keyframe, const geometry::Rigi
   view.keyframe = keyframe.id;
   view.pose_version = keyframe.pose_version;
   view.map_from_camera = map_from_body * keyframe.camera->body_from_camera;
+  view.exposure_known = keyframe.exposure_s > 0.0F;
   view.picture = undistorter->apply(picture);
   view.depths = project_depths(keyframe.points_in_body, keyframe.camera->body_from_camera.inverse(), model);
   view.undistorter = std::move(undistorter);

@@ -29,6 +29,7 @@ struct StoredView {
   geometry::RigidTransform map_from_camera;
   std::shared_ptr<const image::Undistorter> undistorter;  ///< shared by all views of one camera
   sensor::ImageRgb8 picture;
+  bool exposure_known = false;      ///< the picture has the brightness of all others
   std::vector<SparseDepth> depths;  ///< in the order of the pixels, one a pixel: the nearest
 
   [[nodiscard]] const geometry::CameraModel& camera() const { return undistorter->model(); }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/config_file.hpp"
 #include "common/io/atomic_file.hpp"
+#include "common/io/ply_gaussians.hpp"
 #include "common/link/dds_transport.hpp"
 #include "common/link/link_metrics.hpp"
 #include "common/log/log.hpp"
@@ -73,6 +74,9 @@ Status run(const app::Options& options) {
   server.finish(std::chrono::seconds(2));
   link::record(registry, *transport);
   EDGESPLAT_TRY_STATUS(io::write_file_atomically(folder / "metrics.json", registry.to_json()));
+  for (const gaussian::GaussianCloud* seeds : server.seeds()) {
+    EDGESPLAT_TRY_STATUS(io::write_gaussians_ply(folder / "seeded.ply", *seeds));
+  }
   for (const app::MapStatus& status : server.status()) {
     EDGESPLAT_LOG_INFO("server", "map", "robot", status.robot.value, "gaussians", status.gaussians, "seq",
                        status.seq, "hash", status.map_hash);

@@ -2,21 +2,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/app/mapping_stage.hpp"
 
+#include "common/base/check.hpp"
+#include "common/link/heartbeat.hpp"
 #include "common/log/log.hpp"
 #include "server/stream/map_uuid.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 namespace edgesplat::app {
 namespace {
 
-/// Most bytes of deltas made at a time, about.
-constexpr std::size_t kDeltaBudget_bytes = std::size_t{1} << 20U;
+constexpr double kBurst_s = 1.0;
 
 /// Ids are never reused over restarts: the epoch is the upper 16 of the counter's 48 bits.
 std::uint64_t first_counter(map::Epoch epoch) {
   return (static_cast<std::uint64_t>(epoch.value & 0xFFFFU) << 32U) + 1;
+}
+
+std::vector<OutgoingDelta> addressed(map::RobotId robot, std::vector<stream::Bytes> deltas) {
+  std::vector<OutgoingDelta> out;
+  out.reserve(deltas.size());
+  for (stream::Bytes& bytes : deltas) out.push_back({robot, std::move(bytes)});
+  return out;
 }
 
 }  // namespace
@@ -29,54 +38,60 @@ MappingStage::MappingStage(const config::ServerConfig& config, map::Epoch epoch,
       ids_(config.instance_id, first_counter(epoch)),
       keyframes_(registry.counter("map.keyframes")),
       gaussians_(registry.counter("map.gaussians")),
+      steps_(registry.counter("map.steps")),
+      bad_pictures_(registry.counter("map.bad_pictures")),
       deltas_(registry.counter("map.deltas")),
       delta_bytes_(registry.counter("map.delta_bytes")),
       keyframe_ms_(registry.histogram("map.keyframe_ms")),
+      step_ms_(registry.histogram("map.step_ms")),
       requests_corrupt_(registry.counter("map.requests_corrupt")) {}
 
-std::vector<std::vector<std::byte>> MappingStage::handle(const ingest::IngestedKeyframe& keyframe) {
+std::vector<OutgoingDelta> MappingStage::handle(const ingest::IngestedKeyframe& keyframe) {
   const metrics::ScopedTimerMs timer(keyframe_ms_, clock_);
   RobotMap& robot = map_of(keyframe);
-  const optimise::MapChange change = robot.builder.add(keyframe.keyframe);
+  const std::size_t added = robot.builder->add(keyframe.keyframe);
   keyframes_.add();
-  gaussians_.add(change.changed_rows.size());
+  gaussians_.add(added);
+  bad_pictures_.add(robot.builder->bad_pictures() -
+                    std::exchange(robot.bad_pictures, robot.builder->bad_pictures()));
   EDGESPLAT_LOG_DEBUG("map", "keyframe mapped", "robot", keyframe.robot.value, "keyframe",
                       keyframe.keyframe.id.value, "points", keyframe.keyframe.points_in_body.size(), "added",
-                      change.changed_rows.size(), "total", robot.builder.gaussians().size());
-  return publish(robot, change.changed_rows);
+                      added, "total", robot.builder->engine().cloud().size());
+  return publish(keyframe.robot, robot);
 }
 
-std::vector<std::vector<std::byte>> MappingStage::pump(map::RobotId robot) {
-  const auto found = maps_.find(robot);
-  if (found == maps_.end()) return {};
-  return publish(found->second, {});
-}
-
-std::vector<std::vector<std::byte>> MappingStage::publish(RobotMap& robot,
-                                                          std::span<const std::uint32_t> changed_rows) {
-  auto deltas = robot.stream->publish(robot.builder.gaussians(), changed_rows, {}, kDeltaBudget_bytes);
+std::vector<OutgoingDelta> MappingStage::publish(map::RobotId robot, RobotMap& map) {
+  map.last_publish = clock_.now();
+  const mapping::EngineChanges changes = map.builder->take_changes();
+  auto deltas = map.stream->publish(map.builder->engine().cloud(), changes.changed_rows, changes.removed,
+                                    map.allowance.available(map.last_publish));
   deltas_.add(deltas.size());
-  for (const auto& delta : deltas) delta_bytes_.add(delta.size());
-  return deltas;
+  for (const auto& delta : deltas) {
+    delta_bytes_.add(delta.size());
+    map.allowance.spend(delta.size());
+  }
+  return addressed(robot, std::move(deltas));
 }
 
-std::vector<std::vector<std::byte>> MappingStage::answer(const link::Message& message) {
-  const auto request = map::decode_map_request(message.bytes);
-  if (!request || request->robot != message.robot) {
-    requests_corrupt_.add();
-    return {};
+bool MappingStage::has_work() const {
+  return std::any_of(maps_.begin(), maps_.end(), [this](const auto& entry) {
+    return (config_.optimise.enabled && entry.second.builder->has_work()) ||
+           entry.second.stream->counters().waiting > 0;
+  });
+}
+
+std::vector<OutgoingDelta> MappingStage::work() {
+  if (maps_.empty()) return {};
+  auto turn = maps_.upper_bound(last_worked_);
+  if (turn == maps_.end()) turn = maps_.begin();
+  last_worked_ = turn->first;
+  RobotMap& map = turn->second;
+  if (config_.optimise.enabled && map.builder->has_work()) {
+    const metrics::ScopedTimerMs timer(step_ms_, clock_);
+    if (map.builder->step()) steps_.add();
   }
-  std::shared_ptr<stream::DeltaStream> stream;
-  {
-    const std::lock_guard lock(streams_mutex_);
-    const auto found = streams_.find(message.robot);
-    // A robot that started anew has no map here yet: it is told when its first keyframe comes.
-    if (found == streams_.end() || found->second.session != message.session) return {};
-    stream = found->second.stream;
-  }
-  EDGESPLAT_LOG_DEBUG("map", "map request", "robot", message.robot.value, "kind",
-                      std::string(map::to_string(request->kind)), "seq", request->seq);
-  return stream->answer(*request, clock_.now());
+  if (clock_.now() - map.last_publish < from_seconds(config_.optimise.publish_period_s)) return {};
+  return publish(turn->first, map);
 }
 
 MappingStage::RobotMap& MappingStage::map_of(const ingest::IngestedKeyframe& keyframe) {
@@ -84,13 +99,15 @@ MappingStage::RobotMap& MappingStage::map_of(const ingest::IngestedKeyframe& key
   if (found != maps_.end() && found->second.session == keyframe.session) return found->second;
   // The robot started anew: its odometry frame is another one, so nothing of the old map fits.
   if (found != maps_.end()) maps_.erase(found);
+  auto builder = optimise::MapBuilder::create(config_.optimise.engine, ids_, clock_);
+  EDGESPLAT_CHECK(builder.has_value(), "the configuration was checked");
   stream::DeltaStreamConfig stream;
   stream.robot = keyframe.robot;
   stream.map = stream::make_map_uuid();
   stream.epoch = epoch_;
   stream.max_rows = config_.delta_gaussians;
-  RobotMap fresh{keyframe.session, optimise::MapBuilder(config_.seed, ids_),
-                 std::make_shared<stream::DeltaStream>(stream)};
+  RobotMap fresh{keyframe.session, *std::move(builder), std::make_shared<stream::DeltaStream>(stream),
+                 stream::ByteAllowance(config_.optimise.delta_bytes_per_s, kBurst_s, clock_.now())};
   {
     const std::lock_guard lock(streams_mutex_);
     streams_[keyframe.robot] = {keyframe.session, fresh.stream};
@@ -99,12 +116,48 @@ MappingStage::RobotMap& MappingStage::map_of(const ingest::IngestedKeyframe& key
   return maps_.emplace(keyframe.robot, std::move(fresh)).first->second;
 }
 
+std::shared_ptr<stream::DeltaStream> MappingStage::stream_of(map::RobotId robot,
+                                                             std::uint64_t session) const {
+  const std::lock_guard lock(streams_mutex_);
+  const auto found = streams_.find(robot);
+  // A robot that started anew has no map here yet: it is told when its first keyframe comes.
+  if (found == streams_.end() || found->second.session != session) return nullptr;
+  return found->second.stream;
+}
+
+std::vector<OutgoingDelta> MappingStage::answer(const link::Message& message) {
+  const auto request = map::decode_map_request(message.bytes);
+  if (!request || request->robot != message.robot) {
+    requests_corrupt_.add();
+    return {};
+  }
+  const auto stream = stream_of(message.robot, message.session);
+  if (stream == nullptr) return {};
+  EDGESPLAT_LOG_DEBUG("map", "map request", "robot", message.robot.value, "kind",
+                      std::string(map::to_string(request->kind)), "seq", request->seq);
+  return addressed(message.robot, stream->answer(*request, clock_.now()));
+}
+
+void MappingStage::take_heartbeat(const link::Message& message) {
+  const auto heartbeat = link::decode_heartbeat(message.bytes);
+  const auto stream = stream_of(message.robot, message.session);
+  if (heartbeat && stream != nullptr) stream->confirmed(heartbeat->epoch, heartbeat->seq);
+}
+
 std::vector<MapStatus> MappingStage::status() const {
   const std::lock_guard lock(streams_mutex_);
   std::vector<MapStatus> all;
   for (const auto& [robot, shared] : streams_) {
     const stream::StreamPosition at = shared.stream->position();
     all.push_back({robot, epoch_, at.seq, at.map_hash, at.gaussians});
+  }
+  return all;
+}
+
+std::vector<const gaussian::GaussianCloud*> MappingStage::seeds() const {
+  std::vector<const gaussian::GaussianCloud*> all;
+  for (const auto& [robot, map] : maps_) {
+    if (config_.optimise.engine.keep_seeds) all.push_back(&map.builder->engine().seeds());
   }
   return all;
 }

@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/link/transport.hpp"
 #include "common/time/clock.hpp"
 #include "kernels/mapping/id_allocator.hpp"
 #include "server/config/server_config.hpp"
 #include "server/ingest/ingest.hpp"
 #include "server/optimise/map_builder.hpp"
+#include "server/stream/byte_allowance.hpp"
 #include "server/stream/delta_stream.hpp"
 
 #include <map>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <vector>
 
 namespace edgesplat::app {
@@ -26,47 +27,70 @@ struct MapStatus {
   std::size_t gaussians = 0;
 };
 
-/// Keyframe in, encoded deltas out: the map and the stream of each robot. handle() and pump() on one thread;
-/// answer(), confirmed() and status() from any. Counts map.keyframes, map.gaussians, map.deltas,
-/// map.delta_bytes and the histogram map.keyframe_ms.
+/// An encoded delta and whom it is for.
+struct OutgoingDelta {
+  map::RobotId robot;
+  std::vector<std::byte> bytes;
+};
+
+/// Keyframes in, deltas out: the map and the stream of each robot, optimised between keyframes. handle() and
+/// work() on one thread; answer() and take_heartbeat() on another; status() from any. Counts map.keyframes,
+/// map.gaussians, map.steps, map.bad_pictures, map.deltas, map.delta_bytes and the histograms map.keyframe_ms
+/// and map.step_ms.
 class MappingStage {
  public:
   MappingStage(const config::ServerConfig& config, map::Epoch epoch, metrics::Registry& registry,
                const Clock& clock);
 
-  std::vector<std::vector<std::byte>> handle(const ingest::IngestedKeyframe& keyframe);
-  /// What a robot's stream still has to say, though no keyframe came.
-  std::vector<std::vector<std::byte>> pump(map::RobotId robot);
-  /// Takes a message of the request lane; what can be sent again at once is returned, pump() makes the rest.
-  std::vector<std::vector<std::byte>> answer(const link::Message& message);
+  /// New Gaussians go out at once, as far as the robot's allowance goes.
+  std::vector<OutgoingDelta> handle(const ingest::IngestedKeyframe& keyframe);
+  /// There is a map to optimise or something left to send.
+  [[nodiscard]] bool has_work() const;
+  /// One optimisation step of the map whose turn it is, and what is due to be sent.
+  std::vector<OutgoingDelta> work();
+  /// Takes a robot's request; what is kept goes out again at once, the rest with the next work().
+  std::vector<OutgoingDelta> answer(const link::Message& message);
+  /// A robot's heartbeat says what it has applied.
+  void take_heartbeat(const link::Message& message);
   [[nodiscard]] std::vector<MapStatus> status() const;
+  /// The maps as they were seeded, where the configuration keeps them.
+  [[nodiscard]] std::vector<const gaussian::GaussianCloud*> seeds() const;
 
  private:
   struct RobotMap {
     std::uint64_t session;
-    optimise::MapBuilder builder;
+    std::unique_ptr<optimise::MapBuilder> builder;
     std::shared_ptr<stream::DeltaStream> stream;
-  };
-  struct SharedStream {
-    std::uint64_t session;
-    std::shared_ptr<stream::DeltaStream> stream;
+    stream::ByteAllowance allowance;
+    HostTime last_publish{};
+    std::uint64_t bad_pictures = 0;  ///< counted already
   };
   RobotMap& map_of(const ingest::IngestedKeyframe& keyframe);
-  std::vector<std::vector<std::byte>> publish(RobotMap& robot, std::span<const std::uint32_t> changed_rows);
+  std::vector<OutgoingDelta> publish(map::RobotId robot, RobotMap& map);
+  [[nodiscard]] std::shared_ptr<stream::DeltaStream> stream_of(map::RobotId robot,
+                                                               std::uint64_t session) const;
 
   const config::ServerConfig& config_;
   const map::Epoch epoch_;
   const Clock& clock_;
   mapping::IdAllocator ids_;
-  std::map<map::RobotId, RobotMap> maps_;
+  std::map<map::RobotId, RobotMap> maps_;  ///< of the mapping thread
+  map::RobotId last_worked_{};
   metrics::Counter& keyframes_;
   metrics::Counter& gaussians_;
+  metrics::Counter& steps_;
+  metrics::Counter& bad_pictures_;
   metrics::Counter& deltas_;
   metrics::Counter& delta_bytes_;
   metrics::Histogram& keyframe_ms_;
+  metrics::Histogram& step_ms_;
   metrics::Counter& requests_corrupt_;
   mutable std::mutex streams_mutex_;
-  std::map<map::RobotId, SharedStream> streams_;
+  struct SharedStream {
+    std::uint64_t session;
+    std::shared_ptr<stream::DeltaStream> stream;
+  };
+  std::map<map::RobotId, SharedStream> streams_;  ///< the same as in maps_
 };
 
 }  // namespace edgesplat::app

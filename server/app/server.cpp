@@ -8,6 +8,11 @@
 #include <utility>
 
 namespace edgesplat::app {
+namespace {
+
+constexpr nanoseconds kIdleWait = std::chrono::milliseconds(50);
+
+}  // namespace
 
 Server::Server(const config::ServerConfig& config, map::Epoch epoch, link::Transport& transport,
                metrics::Registry& registry, const Clock& clock)
@@ -21,7 +26,7 @@ Server::Server(const config::ServerConfig& config, map::Epoch epoch, link::Trans
       last_keyframe_ns_(to_ns(clock.now())),
       // A full queue blocks the receiver; its inbox and DDS fill up then, and the robots shed what is oldest.
       queue_({config.queue_keyframes}, thread::Overflow::kBlock) {
-  mapper_.emplace(thread::Worker::consume<Job>("map", queue_, [this](const Job& job) { do_job(job); }));
+  mapper_.emplace("map", [this](const std::stop_token&) { return map_step(); });
   receiver_.emplace("ingest", [this](const std::stop_token& stop) { return receive_step(stop); });
 }
 
@@ -33,37 +38,48 @@ bool Server::receive_step(const std::stop_token& stop) {
   const auto message = transport_.receive(std::chrono::milliseconds(100));
   if (stop.stop_requested()) return false;
   if (!message) return !transport_.finished();
-  if (message->lane == link::Lane::kRequest) {
-    send(message->robot, stage_.answer(*message));
-    (void)queue_.push(Job(message->robot));
+  switch (message->lane) {
+    case link::Lane::kKeyframe:
+    case link::Lane::kSpool:
+      take_keyframe(*message);
+      break;
+    case link::Lane::kRequest:
+      send(stage_.answer(*message));
+      break;
+    case link::Lane::kHeartbeat:
+      stage_.take_heartbeat(*message);
+      break;
+    default:
+      break;
   }
-  if (message->lane != link::Lane::kKeyframe && message->lane != link::Lane::kSpool)
-    return true;  // the robots' heartbeats: nothing here depends on them yet
-  const HostTime received = clock_.now();
-  last_keyframe_ns_ = to_ns(received);
-  auto keyframe = ingest_.take(*message, received);
-  if (keyframe) (void)queue_.push(Job(std::move(*keyframe)));
   return true;
 }
 
-void Server::send(map::RobotId robot, std::vector<std::vector<std::byte>> deltas) {
-  for (auto& delta : deltas) {
-    if (!transport_.send(link::Lane::kDelta, robot, std::move(delta))) deltas_refused_.add();
-  }
+void Server::take_keyframe(const link::Message& message) {
+  const HostTime received = clock_.now();
+  last_keyframe_ns_ = to_ns(received);
+  auto keyframe = ingest_.take(message, received);
+  if (keyframe) (void)queue_.push(std::move(*keyframe));
 }
 
-void Server::do_job(const Job& job) {
-  if (const auto* keyframe = std::get_if<ingest::IngestedKeyframe>(&job)) {
-    map_keyframe(*keyframe);
+bool Server::map_step() {
+  // Keyframes first; between them the maps are made better, and with nothing to do the thread sleeps.
+  auto keyframe = stage_.has_work() ? queue_.try_pop() : queue_.pop_for(kIdleWait);
+  if (keyframe) {
+    send(stage_.handle(*keyframe));
+    keyframe_to_delta_ms_.record(to_seconds(clock_.now() - keyframe->received) * 1e3);
+  } else if (queue_.finished()) {
+    return false;
   } else {
-    const map::RobotId robot = std::get<map::RobotId>(job);
-    send(robot, stage_.pump(robot));
+    send(stage_.work());
   }
+  return true;
 }
 
-void Server::map_keyframe(const ingest::IngestedKeyframe& keyframe) {
-  send(keyframe.robot, stage_.handle(keyframe));
-  keyframe_to_delta_ms_.record(to_seconds(clock_.now() - keyframe.received) * 1e3);
+void Server::send(std::vector<OutgoingDelta> deltas) {
+  for (OutgoingDelta& delta : deltas) {
+    if (!transport_.send(link::Lane::kDelta, delta.robot, std::move(delta.bytes))) deltas_refused_.add();
+  }
 }
 
 void Server::send_heartbeats() {

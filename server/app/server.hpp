@@ -10,12 +10,11 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
-#include <variant>
-#include <vector>
 
 namespace edgesplat::app {
 
-/// The server's stages on their threads: receive and ingest; map and stream. Borrows everything it is given.
+/// The server's stages on their threads: receive, ingest and answer; map, optimise and stream. Borrows
+/// everything it is given.
 class Server {
  public:
   Server(const config::ServerConfig& config, map::Epoch epoch, link::Transport& transport,
@@ -32,14 +31,14 @@ class Server {
   /// threads.
   void finish(nanoseconds patience);
   [[nodiscard]] std::vector<MapStatus> status() const { return stage_.status(); }
+  /// After finish(): the maps as they were seeded, where the configuration keeps them.
+  [[nodiscard]] std::vector<const gaussian::GaussianCloud*> seeds() const { return stage_.seeds(); }
 
  private:
   bool receive_step(const std::stop_token& stop);
-  /// A keyframe to map, or a robot whose stream has something to say.
-  using Job = std::variant<ingest::IngestedKeyframe, map::RobotId>;
-  void do_job(const Job& job);
-  void map_keyframe(const ingest::IngestedKeyframe& keyframe);
-  void send(map::RobotId robot, std::vector<std::vector<std::byte>> deltas);
+  void take_keyframe(const link::Message& message);
+  bool map_step();
+  void send(std::vector<OutgoingDelta> deltas);
 
   const config::ServerConfig& config_;
   link::Transport& transport_;
@@ -49,7 +48,7 @@ class Server {
   metrics::Histogram& keyframe_to_delta_ms_;
   metrics::Counter& deltas_refused_;
   std::atomic<std::int64_t> last_keyframe_ns_;
-  thread::BoundedQueue<Job> queue_;
+  thread::BoundedQueue<ingest::IngestedKeyframe> queue_;
   std::optional<thread::Worker> receiver_;
   std::optional<thread::Worker> mapper_;
 };

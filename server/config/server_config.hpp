@@ -4,7 +4,7 @@
 
 #include "common/config/config_reader.hpp"
 #include "common/link/link_config.hpp"
-#include "kernels/mapping/seed.hpp"
+#include "kernels/mapping/engine.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +20,14 @@ namespace edgesplat::config {
   return config;
 }
 
+/// How maps are grown, made better and sent.
+struct OptimiseConfig {
+  bool enabled = true;               ///< off: maps stay as they are seeded
+  double publish_period_s = 0.25;    ///< between two times that a robot is told what changed
+  double delta_bytes_per_s = 250e3;  ///< mean that a robot is sent at most
+  mapping::EngineOptions engine;
+};
+
 /// Everything edgesplat-server can be told.
 struct ServerConfig {
   std::string log_level = "info";  ///< trace, debug, info, warn, error, off
@@ -30,7 +38,7 @@ struct ServerConfig {
   std::size_t delta_gaussians = 4096;  ///< most Gaussians in one delta
   double heartbeat_period_s = 0.2;
   link::LinkConfig link = roomy_link();
-  mapping::SeedOptions seed;
+  OptimiseConfig optimise;
 };
 
 void describe(ConfigReader& reader, ServerConfig& config);

@@ -2,21 +2,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/optimise/map_builder.hpp"
 
+#include "common/io/image_file.hpp"
+#include "common/log/log.hpp"
+
+#include <utility>
+
 namespace edgesplat::optimise {
 
-MapChange MapBuilder::add(const map::Keyframe& keyframe) {
-  mapping::SeedInput input;
-  input.points_in_body = keyframe.points_in_body;
-  input.map_from_body = keyframe.odom_from_body;
-  input.anchor = {keyframe.id.value, keyframe.pose_version};
-  input.has_camera = keyframe.camera.has_value();
-  const gaussian::GaussianCloud seeded = seeder_.seed(input);
-  MapChange change;
-  for (std::size_t row = 0; row < seeded.size(); ++row) {
-    change.changed_rows.push_back(static_cast<std::uint32_t>(gaussians_.size()));
-    gaussians_.append_row(seeded, row);
+Result<std::unique_ptr<MapBuilder>> MapBuilder::create(const mapping::EngineOptions& options,
+                                                       mapping::IdAllocator& ids, const Clock& clock) {
+  EDGESPLAT_TRY(auto engine, mapping::MappingEngine::create(options, ids, clock));
+  return std::unique_ptr<MapBuilder>(new MapBuilder(std::move(engine)));
+}
+
+std::size_t MapBuilder::add(const map::Keyframe& keyframe) {
+  std::optional<sensor::ImageRgb8> picture;
+  if (keyframe.image && keyframe.camera) {
+    auto decoded = io::decode_rgb8(keyframe.image->bytes);
+    if (decoded) picture = *std::move(decoded);
+    if (!picture || picture->width_px != keyframe.camera->model.width_px ||
+        picture->height_px != keyframe.camera->model.height_px) {
+      ++bad_pictures_;
+      EDGESPLAT_LOG_WARN("map", "keyframe's picture not used", "keyframe", keyframe.id.value, "why",
+                         picture ? "not of its camera's size" : decoded.error().context);
+      picture.reset();
+    }
   }
-  return change;
+  const auto added = engine_->add(keyframe, keyframe.odom_from_body, picture ? &*picture : nullptr);
+  if (added) return *added;
+  EDGESPLAT_LOG_ERROR("map", "keyframe not mapped", "keyframe", keyframe.id.value, "why",
+                      added.error().context);
+  return 0;
 }
 
 }  // namespace edgesplat::optimise

@@ -2,34 +2,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/map/keyframe.hpp"
-#include "kernels/mapping/seed.hpp"
+#include "kernels/mapping/engine.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <memory>
+#include <optional>
 
 namespace edgesplat::optimise {
 
-/// What a keyframe changed.
-struct MapChange {
-  std::vector<std::uint32_t> changed_rows;  ///< new Gaussians, at the end of the map
-};
-
-/// The server's map of one robot's session, grown keyframe by keyframe. `map` and `odom` are one frame until
-/// poses are corrected. Single-owner.
+/// The server's map of one robot's session: grown keyframe by keyframe, optimised step by step. `map` and
+/// `odom` are one frame until poses are corrected. Single-owner.
 class MapBuilder {
  public:
-  /// `ids` must outlive this.
-  MapBuilder(const mapping::SeedOptions& options, mapping::IdAllocator& ids) : seeder_(options, ids) {}
+  /// `ids` and `clock` must outlive this. kInvalidConfig for options out of range.
+  static Result<std::unique_ptr<MapBuilder>> create(const mapping::EngineOptions& options,
+                                                    mapping::IdAllocator& ids, const Clock& clock);
 
-  MapChange add(const map::Keyframe& keyframe);
-  [[nodiscard]] const gaussian::GaussianCloud& gaussians() const { return gaussians_; }
-  [[nodiscard]] const mapping::SeedStats& seed_stats() const { return seeder_.stats(); }
+  /// Decodes the picture, seeds what is new, trains on it from now on; returns how many Gaussians are new. A
+  /// picture that does not decode is counted, and the points are used alone.
+  std::size_t add(const map::Keyframe& keyframe);
+  [[nodiscard]] bool has_work() const { return engine_->has_work(); }
+  /// One optimisation step; nothing without a view.
+  std::optional<mapping::StepReport> step() { return engine_->step(); }
+  [[nodiscard]] mapping::EngineChanges take_changes() { return engine_->take_changes(); }
+
+  [[nodiscard]] const mapping::MappingEngine& engine() const { return *engine_; }
+  [[nodiscard]] std::uint64_t bad_pictures() const { return bad_pictures_; }
 
  private:
-  mapping::MapSeeder seeder_;
-  gaussian::GaussianCloud gaussians_;
+  explicit MapBuilder(std::unique_ptr<mapping::MappingEngine> engine) : engine_(std::move(engine)) {}
+
+  std::unique_ptr<mapping::MappingEngine> engine_;
+  std::uint64_t bad_pictures_ = 0;
 };
 
 }  // namespace edgesplat::optimise

@@ -12,7 +12,7 @@ namespace {
 TEST(ServerConfig, ReadsBackWhatItPrints) {
   ServerConfig config;
   config.link.interface = "eth0";
-  config.seed.coverage.near_cell_m = 0.08F;
+  config.optimise.engine.seed.coverage.near_cell_m = 0.08F;
   config.max_robots = 9;
   const auto file = ConfigFile::parse(to_toml(config), "printed");
   ASSERT_TRUE(file.has_value()) << file.error().context;
@@ -20,7 +20,7 @@ TEST(ServerConfig, ReadsBackWhatItPrints) {
   const auto status = file->read_into(back);
   ASSERT_TRUE(status.has_value()) << status.error().context;
   EXPECT_EQ(back.link.interface, "eth0");
-  EXPECT_EQ(back.seed.coverage.near_cell_m, 0.08F);
+  EXPECT_EQ(back.optimise.engine.seed.coverage.near_cell_m, 0.08F);
   EXPECT_EQ(back.max_robots, 9U);
 }
 

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/mapping/densify.hpp"
+#include "kernels/mapping/optimiser.hpp"
+#include "kernels/mapping/seed.hpp"
+#include "kernels/mapping/view_pool.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace edgesplat::mapping {
+
+struct EngineOptions {
+  SeedOptions seed;
+  OptimiserOptions optimiser;
+  ViewPoolOptions views;
+  DensifyOptions densify;
+  int densify_every = 200;  ///< steps, 0 (never)..100000
+  int steps_per_view =
+      300;  ///< after so many a view on average, a map that gets no new one is at rest, 1..1000000
+  bool keep_seeds = false;  ///< keep the map as it was seeded, to compare with
+};
+
+/// What became of the map since the last question.
+struct EngineChanges {
+  std::vector<std::uint32_t> changed_rows;  ///< of cloud(): new or other, ascending
+  std::vector<gaussian::GaussianId> removed;
+};
+
+/// The mapping engine of server and robot: keyframes in, Gaussians that look like their pictures out. Seeds
+/// from LiDAR, then one optimisation step a call; the caller bounds the time. No I/O, no threads of its own
+/// beyond those of a step. Deterministic. Single-owner.
+class MappingEngine {
+ public:
+  /// `ids` and `clock` must outlive the engine. kInvalidConfig for options out of range.
+  static Result<std::unique_ptr<MappingEngine>> create(const EngineOptions& options, IdAllocator& ids,
+                                                       const Clock& clock);
+
+  /// Seeds what the keyframe shows anew and keeps its picture to train on. `picture`: the keyframe's,
+  /// decoded; null where it has none: then it only seeds. Returns how many Gaussians are new.
+  /// kInvalidArgument for a picture of another size than the camera's (the points are seeded all the same).
+  Result<std::size_t> add(const map::Keyframe& keyframe, const geometry::RigidTransform& map_from_body,
+                          const sensor::ImageRgb8* picture);
+
+  /// There is something to train on and it is not at rest.
+  [[nodiscard]] bool has_work() const;
+  /// One step on the view whose turn it is. Nothing where there is no view.
+  std::optional<StepReport> step();
+
+  [[nodiscard]] EngineChanges take_changes();
+  [[nodiscard]] const gaussian::GaussianCloud& cloud() const { return optimiser_.cloud(); }
+  [[nodiscard]] const gaussian::GaussianCloud& seeds() const { return seeds_; }
+  [[nodiscard]] const SeedStats& seed_stats() const { return seeder_.stats(); }
+  [[nodiscard]] const ViewPool& views() const { return views_; }
+  [[nodiscard]] std::uint64_t steps() const { return steps_; }
+
+ private:
+  MappingEngine(const EngineOptions& options, IdAllocator& ids, Optimiser optimiser)
+      : options_(options),
+        ids_(ids),
+        seeder_(options.seed, ids),
+        optimiser_(std::move(optimiser)),
+        views_(options.views) {}
+  Result<std::size_t> seed(const map::Keyframe& keyframe, const geometry::RigidTransform& map_from_body);
+  [[nodiscard]] std::shared_ptr<const image::Undistorter> undistorter_of(const geometry::CameraModel& camera);
+  [[nodiscard]] TrainingView prepare(const StoredView& view);
+
+  EngineOptions options_;
+  IdAllocator& ids_;
+  MapSeeder seeder_;
+  Optimiser optimiser_;
+  ViewPool views_;
+  gaussian::GaussianCloud seeds_;
+  std::optional<geometry::CameraModel> camera_;  ///< that undistorter_ is for
+  std::shared_ptr<const image::Undistorter> undistorter_;
+  ChangeMark taken_ = 0;
+  std::vector<gaussian::GaussianId> removed_;
+  std::uint64_t steps_ = 0;
+  std::uint64_t steps_since_view_ = 0;
+  std::vector<float> colour_, depth_m_;  ///< of the view in training
+};
+
+}  // namespace edgesplat::mapping

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+// What a number of optimisation steps a keyframe makes of a map, without clocks and links: the same figures
+// on every machine. usage: map_quality RECORDING.mcap OUT STEPS_PER_KEYFRAME [SERVER_KEY=VALUE...]
+#include "common/config/config_file.hpp"
+#include "common/io/ply_gaussians.hpp"
+#include "robot/app/replay_input.hpp"
+#include "robot/app/run_folder.hpp"
+#include "robot/app/sensing_chain.hpp"
+#include "server/config/server_config.hpp"
+#include "server/optimise/map_builder.hpp"
+#include "tools/desk/score.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+using namespace edgesplat;
+
+Result<config::ServerConfig> server_config(int argc, char** argv) {
+  config::ConfigFile file;
+  for (int i = 4; i < argc; ++i) EDGESPLAT_TRY_STATUS(file.apply_override(argv[i]));
+  config::ServerConfig server;
+  EDGESPLAT_TRY_STATUS(file.read_into(server));
+  server.optimise.engine.keep_seeds = true;
+  return server;
+}
+
+Status run(int argc, char** argv) {
+  const std::filesystem::path out = argv[2];
+  const int steps_per_keyframe = std::atoi(argv[3]);
+  EDGESPLAT_TRY(const config::ServerConfig server, server_config(argc, argv));
+  EDGESPLAT_TRY(replay::ReplaySource recording, replay::ReplaySource::open(argv[1]));
+  const sensor::Rig rig = recording.rig();
+  const robot_config::RobotConfig robot;
+  EDGESPLAT_TRY(const app::RunFolder folder, app::RunFolder::create(out, robot, rig));
+  const SteadyClock clock;
+  metrics::Registry metrics;
+  mapping::IdAllocator ids(server.instance_id);
+  EDGESPLAT_TRY(const auto builder, optimise::MapBuilder::create(server.optimise.engine, ids, clock));
+
+  std::chrono::nanoseconds in_steps{};
+  std::uint64_t steps = 0;
+  const auto sink = [&](const std::shared_ptr<const map::Keyframe>& keyframe) {
+    builder->add(*keyframe);
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < steps_per_keyframe && builder->step(); ++i) ++steps;
+    in_steps += std::chrono::steady_clock::now() - start;
+  };
+  EDGESPLAT_TRY(const auto chain, app::SensingChain::create(robot, rig, sink, clock, metrics));
+  app::ReplayInput input(recording, 0.0, 0.0, clock);
+  EDGESPLAT_TRY_STATUS(input.run(
+      [&](sensor::Measurement measurement) {
+        for (app::ReadyGroup& ready : chain->sync(std::move(measurement))) {
+          if (const auto frame = chain->track(std::move(ready))) chain->keyframe(*frame);
+        }
+      },
+      {}));
+  const gaussian::GaussianCloud& cloud = builder->engine().cloud();
+  EDGESPLAT_TRY_STATUS(folder.write_results(chain->keyframes(), cloud, {}));
+  EDGESPLAT_TRY_STATUS(folder.write_map_at_input_end(cloud));
+  std::filesystem::create_directories(out / "server");
+  EDGESPLAT_TRY_STATUS(io::write_gaussians_ply(out / "server" / "seeded.ply", builder->engine().seeds()));
+  EDGESPLAT_TRY(const nlohmann::json scores, desk::score_run({out, argv[1], 24}));
+  std::printf(
+      "%llu steps, %.1f ms each, %zu Gaussians (%zu seeded): PSNR %.2f dB, SSIM %.3f, seeded %.2f dB, "
+      "nearest %.2f dB\n",
+      static_cast<unsigned long long>(steps),
+      std::chrono::duration<double, std::milli>(in_steps).count() /
+          static_cast<double>(std::max<std::uint64_t>(steps, 1)),
+      cloud.size(), builder->engine().seeds().size(), scores["psnr_db"].get<double>(),
+      scores["ssim"].get<double>(), scores["psnr_seeded_db"].get<double>(),
+      scores["psnr_nearest_db"].get<double>());
+  return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 4) {
+    std::fprintf(stderr, "usage: map_quality RECORDING.mcap OUT STEPS_PER_KEYFRAME [SERVER_KEY=VALUE...]\n");
+    return 2;
+  }
+  const Status status = run(argc, argv);
+  if (status) return 0;
+  std::fprintf(stderr, "map_quality: %s\n", status.error().context.c_str());
+  return 1;
+}
