@@ -129,6 +129,9 @@ Status finish(const Options& o, const robot_config::RobotConfig& config,
   auto cloud = std::make_shared<const gaussian::GaussianCloud>();
   geometry::RigidTransform map_from_odom;
   if (share != nullptr) {
+    // As it is when the input ends: what a robot would have in its hands.
+    const auto at_input_end = share->newest_snapshot();
+    if (folder) EDGESPLAT_TRY_STATUS(folder->write_map_at_input_end(*at_input_end));
     if (!share->drain(from_seconds(config.server.drain_s))) {
       EDGESPLAT_LOG_WARN("map", "server did not answer everything", "waited_s", config.server.drain_s);
     }

@@ -40,6 +40,10 @@ Status RunFolder::write_results(const KeyframeStage& keyframes, const gaussian::
   return keyframes.album().write(robot_folder_, cloud, map_from_odom);
 }
 
+Status RunFolder::write_map_at_input_end(const gaussian::GaussianCloud& cloud) const {
+  return io::write_gaussians_ply(robot_folder_ / "gaussians_at_input_end.ply", cloud);
+}
+
 Status RunFolder::write_metrics(const metrics::Registry& metrics) const {
   return io::write_file_atomically(robot_folder_ / "metrics.json", metrics.to_json());
 }

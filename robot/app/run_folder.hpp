@@ -21,6 +21,8 @@ class RunFolder {
   static Result<RunFolder> create(const std::filesystem::path& path, const robot_config::RobotConfig& config,
                                   const sensor::Rig& rig);
 
+  /// The resident map before the server's last answers are waited for.
+  [[nodiscard]] Status write_map_at_input_end(const gaussian::GaussianCloud& cloud) const;
   /// Trajectory, pictures, maps. `cloud` is the resident map at the end.
   [[nodiscard]] Status write_results(const KeyframeStage& keyframes, const gaussian::GaussianCloud& cloud,
                                      const geometry::RigidTransform& map_from_odom) const;
