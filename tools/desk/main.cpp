@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   desk::add_render_verb(app, context);
   desk::add_replay_verb(app, context);
   desk::add_report_verb(app, context);
+  desk::add_score_verb(app, context);
   desk::add_simulate_verb(app, context);
   desk::add_stream_verb(app, context);
   desk::add_train_verb(app, context);

@@ -26,6 +26,7 @@ void add_odometry_verb(CLI::App& app, VerbContext& context);
 void add_render_verb(CLI::App& app, VerbContext& context);
 void add_replay_verb(CLI::App& app, VerbContext& context);
 void add_report_verb(CLI::App& app, VerbContext& context);
+void add_score_verb(CLI::App& app, VerbContext& context);
 void add_simulate_verb(CLI::App& app, VerbContext& context);
 void add_stream_verb(CLI::App& app, VerbContext& context);
 void add_train_verb(CLI::App& app, VerbContext& context);

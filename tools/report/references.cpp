@@ -44,10 +44,8 @@ std::vector<std::filesystem::path> pseudo_poses(const std::filesystem::path& fol
 
 std::vector<io::StampedPose> in_recording_time(const RunFolder& run) {
   std::vector<io::StampedPose> trajectory = run.trajectory;
-  if (!run.stream.is_object() || !run.stream.contains("host_minus_recording_s")) return trajectory;
-  const auto& offset = run.stream["host_minus_recording_s"];
-  if (!offset.is_number()) return trajectory;
-  for (io::StampedPose& pose : trajectory) pose.stamp -= from_seconds(offset.get<double>());
+  const nanoseconds ahead = host_minus_recording(run);
+  for (io::StampedPose& pose : trajectory) pose.stamp -= ahead;
   return trajectory;
 }
 
@@ -81,6 +79,12 @@ class Collector {
 };
 
 }  // namespace
+
+nanoseconds host_minus_recording(const RunFolder& run) {
+  if (!run.stream.is_object() || !run.stream.contains("host_minus_recording_s")) return nanoseconds(0);
+  const auto& offset = run.stream["host_minus_recording_s"];
+  return offset.is_number() ? from_seconds(offset.get<double>()) : nanoseconds(0);
+}
 
 std::vector<Reference> find_references(RunFolder& run, const std::filesystem::path& input) {
   std::vector<Reference> references;

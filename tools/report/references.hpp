@@ -18,6 +18,9 @@ struct Reference {
   accuracy::Evaluation evaluation;
 };
 
+/// How far a live run's stamps are ahead of the recording that was streamed; 0 for a replay.
+[[nodiscard]] nanoseconds host_minus_recording(const RunFolder& run);
+
 /// Every reference of the run: truth.tum of the folder, else the truth in the recording `input` (written to
 /// truth.tum), else the poses_*_pseudo.txt of the folder `input`. `input` may be empty. What cannot be used
 /// is said in run.missing. A live run's stamps are brought to the recording's time by what the stream said

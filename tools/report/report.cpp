@@ -26,6 +26,7 @@ Result<Report> write_report(const ReportOptions& options) {
   std::string body = headline_section(report.summary);
   body += trajectory_section(run, report.references);
   body += map_section(run);
+  body += held_out_section(run, options.max_keyframes);
   body += camera_section(pictures);
   body += timing_section(run);
   body += losses_section(run);

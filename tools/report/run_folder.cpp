@@ -78,6 +78,8 @@ Result<RunFolder> read_run_folder(const std::filesystem::path& folder) {
   run.robot_metrics = json_of(robot / "metrics.json", run.missing);
   run.server_metrics = json_of(folder / "server" / "metrics.json", run.missing);
   if (!existing(folder / "stream.json").empty()) run.stream = json_of(folder / "stream.json", run.missing);
+  if (!existing(folder / "heldout.json").empty())
+    run.held_out = json_of(folder / "heldout.json", run.missing);
   run.keyframes = find_keyframes(robot);
   if (run.keyframes.empty()) run.missing.push_back("no camera pictures in " + (robot / "keyframes").string());
   if (auto points = io::read_points_ply(robot / "points.ply")) {

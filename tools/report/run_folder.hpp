@@ -32,6 +32,7 @@ struct RunFolder {
   nlohmann::json robot_metrics;   ///< null where absent
   nlohmann::json server_metrics;  ///< null where absent
   nlohmann::json stream;          ///< what the simulated sensors said, live runs only
+  nlohmann::json held_out;        ///< what `edgesplat score` found, null where it did not run
   std::vector<KeyframeFiles> keyframes;
   std::optional<io::PointCloud> points;
   std::string rig_toml;

@@ -60,6 +60,26 @@ nlohmann::json or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json(nullptr);
 }
 
+std::optional<double> number_of(const nlohmann::json& json, const char* key) {
+  if (!json.is_object() || !json.contains(key) || !json[key].is_number()) return std::nullopt;
+  return json[key].get<double>();
+}
+
+void read_held_out(const nlohmann::json& held_out, Summary& s) {
+  s.psnr_db = number_of(held_out, "psnr_db");
+  s.ssim = number_of(held_out, "ssim");
+  s.lpips = number_of(held_out, "lpips");
+  s.psnr_seeded_db = number_of(held_out, "psnr_seeded_db");
+  s.psnr_nearest_db = number_of(held_out, "psnr_nearest_db");
+}
+
+std::optional<double> histogram_ms(const nlohmann::json& metrics, const char* name, const char* percentile) {
+  if (!metrics.is_object() || !metrics.contains("histograms") || !metrics["histograms"].contains(name)) {
+    return std::nullopt;
+  }
+  return number_of(metrics["histograms"][name], percentile);
+}
+
 }  // namespace
 
 std::optional<double> find_metric(const nlohmann::json& metrics, const std::vector<std::string>& names) {
@@ -104,6 +124,12 @@ Summary summarise(const RunFolder& run, const std::vector<Reference>& references
   s.bytes_down = find_metric(run.robot_metrics, {"link.bytes_down"});
   s.robot_peak_rss_mb = peak_rss_mb(run.robot_metrics);
   s.server_peak_rss_mb = peak_rss_mb(run.server_metrics);
+  read_held_out(run.held_out, s);
+  if (const auto median = histogram_ms(run.robot_metrics, "render.frame_ms", "p50");
+      median && *median > 0.0) {
+    s.render_fps_p50 = 1e3 / *median;
+  }
+  s.render_ms_p95 = histogram_ms(run.robot_metrics, "render.frame_ms", "p95");
   if (!qualities.empty()) {
     RenderQuality sum;
     for (const RenderQuality& quality : qualities) {
@@ -133,6 +159,13 @@ nlohmann::json to_json(const Summary& s, const std::vector<Reference>& reference
                          {"bytes_down", or_null(s.bytes_down)},
                          {"robot_peak_rss_mb", or_null(s.robot_peak_rss_mb)},
                          {"server_peak_rss_mb", or_null(s.server_peak_rss_mb)},
+                         {"psnr_db", or_null(s.psnr_db)},
+                         {"ssim", or_null(s.ssim)},
+                         {"lpips", or_null(s.lpips)},
+                         {"psnr_seeded_db", or_null(s.psnr_seeded_db)},
+                         {"psnr_nearest_db", or_null(s.psnr_nearest_db)},
+                         {"render_fps_p50", or_null(s.render_fps_p50)},
+                         {"render_ms_p95", or_null(s.render_ms_p95)},
                          {"render_psnr_db", or_null(s.render_psnr_db)},
                          {"render_coverage", or_null(s.render_coverage)},
                          {"references", nlohmann::json::array()}};
@@ -160,6 +193,9 @@ std::vector<SummaryRow> summary_rows(const Summary& s) {
   if (s.ete_percent) end_to_end += fmt::format(" ({:.2f} % of the path)", *s.ete_percent);
   std::string quality = text_or_dash(s.render_psnr_db, "dB", 1);
   if (s.render_coverage) quality += fmt::format(" over {:.0f} % of the picture", 100.0 * *s.render_coverage);
+  std::string held_out = text_or_dash(s.psnr_db, "dB", 1);
+  if (s.psnr_seeded_db) held_out += fmt::format(", {:.1f} before optimising", *s.psnr_seeded_db);
+  if (s.psnr_nearest_db) held_out += fmt::format(", nearest keyframe {:.1f}", *s.psnr_nearest_db);
   return {
       {"Run", fmt::format("{:.1f} s, {} poses, {}", s.duration_s, s.poses, text_or_dash(s.path_m, "m", 1))},
       {"Trajectory error (ATE rmse)", text_or_dash(s.ate_rmse_m, "m", 3)},
@@ -169,7 +205,10 @@ std::vector<SummaryRow> summary_rows(const Summary& s) {
       {"Packets lost", text_or_dash(s.packets_lost, "", 0)},
       {"Keyframes", text_or_dash(s.keyframes, "", 0)},
       {"Gaussians on the robot", text_or_dash(s.gaussians, "", 0)},
-      {"Picture quality (PSNR)", quality},
+      {"Map between keyframes (PSNR)", held_out},
+      {"Render beside camera (PSNR)", quality},
+      {"Render time", text_or_dash(s.render_fps_p50, "pictures/s median", 0) +
+                          (s.render_ms_p95 ? fmt::format(", {:.1f} ms p95", *s.render_ms_p95) : "")},
       {"Sent up / down",
        text_or_dash(megabytes(s.bytes_up), "MB", 1) + " / " + text_or_dash(megabytes(s.bytes_down), "MB", 1)},
       {"Peak memory robot / server",

@@ -33,6 +33,13 @@ struct Summary {
   std::optional<double> bytes_down;
   std::optional<double> robot_peak_rss_mb;
   std::optional<double> server_peak_rss_mb;
+  std::optional<double> psnr_db;          ///< the map from places between keyframes against the clean world
+  std::optional<double> ssim;             ///< of the same pictures
+  std::optional<double> lpips;            ///< of the same pictures
+  std::optional<double> psnr_seeded_db;   ///< the same map before it was optimised
+  std::optional<double> psnr_nearest_db;  ///< the nearest keyframe's picture instead of the map
+  std::optional<double> render_fps_p50;   ///< the robot's renderer, by its own time for a picture
+  std::optional<double> render_ms_p95;
   std::optional<double> render_psnr_db;  ///< Gaussians against the camera where they cover the picture, mean
   std::optional<double>
       render_coverage;  ///< share of the picture they cover, mean over the sampled keyframes

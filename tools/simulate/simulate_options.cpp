@@ -97,4 +97,12 @@ std::string world_toml(const SimulateOptions& options) {
   return config::print_toml([&copy](config::ConfigReader& reader) { describe_simulation(reader, copy); });
 }
 
+Result<SimulateOptions> parse_world_toml(std::string_view text) {
+  EDGESPLAT_TRY(const config::ConfigFile file, config::ConfigFile::parse(text, "world.toml"));
+  SimulateOptions options;
+  EDGESPLAT_TRY_STATUS(
+      file.read([&options](config::ConfigReader& reader) { describe_simulation(reader, options); }));
+  return options;
+}
+
 }  // namespace edgesplat::simulate

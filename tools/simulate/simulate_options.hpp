@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace edgesplat::simulate {
 
@@ -42,5 +43,7 @@ struct SimulateOptions {
 [[nodiscard]] CameraSensorConfig simulated_exposure(const SimulateOptions& options);
 /// world.toml: what another program needs to build the same world and run again.
 [[nodiscard]] std::string world_toml(const SimulateOptions& options);
+/// The reverse: what world_toml() says; the camera is not in it. kInvalidConfig with the line.
+[[nodiscard]] Result<SimulateOptions> parse_world_toml(std::string_view text);
 
 }  // namespace edgesplat::simulate

@@ -66,6 +66,12 @@ Result<RecordedFrame> VirtualCamera::expose() {
   return frame;
 }
 
+sensor::ImageRgb8 clean_picture(const World& world, const geometry::CameraModel& camera,
+                                const geometry::RigidTransform& world_from_camera) {
+  const CameraPicture picture = render_picture(world, {camera, world_from_camera, 0.0});
+  return CameraSensor{CameraSensorConfig{}}.expose_ideal(picture.clean, 0.0);
+}
+
 Status write_clean_views(const World& world, const SimulateOptions& options) {
   if (!options.clean_views) return {};
   EDGESPLAT_TRY(const auto poses, io::read_tum(options.clean_views->poses));
@@ -75,14 +81,12 @@ Status write_clean_views(const World& world, const SimulateOptions& options) {
     return fail(Errc::kIo, "cannot create " + options.clean_views->folder.string() + ": " + error.message());
   }
   const sensor::CameraMount mount = *simulated_rig(options).camera;
-  const CameraSensor camera{CameraSensorConfig{}};
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    const CameraView view{mount.model, poses[k].world_from_body * mount.body_from_camera, 0.0};
     char name[32];
     std::snprintf(name, sizeof(name), "%06zu.png", k);
-    const CameraPicture picture = render_picture(world, view);
     EDGESPLAT_TRY_STATUS(
-        io::save_image(options.clean_views->folder / name, camera.expose_ideal(picture.clean, 0.0)));
+        io::save_image(options.clean_views->folder / name,
+                       clean_picture(world, mount.model, poses[k].world_from_body * mount.body_from_camera)));
   }
   return {};
 }

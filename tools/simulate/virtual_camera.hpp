@@ -30,6 +30,11 @@ class VirtualCamera {
   std::uint32_t next_ = 0;
 };
 
+/// What an ideal camera sees of the static world at the exposure of a recording's start: no movers, no
+/// vignetting, no noise. What a map is judged by.
+[[nodiscard]] sensor::ImageRgb8 clean_picture(const World& world, const geometry::CameraModel& camera,
+                                              const geometry::RigidTransform& world_from_camera);
+
 /// Writes options.clean_views: the static world, ideally exposed, from each pose of the file.
 [[nodiscard]] Status write_clean_views(const World& world, const SimulateOptions& options);
 

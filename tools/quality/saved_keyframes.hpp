@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+#include "common/geometry/camera_model.hpp"
+#include "common/geometry/rigid_transform.hpp"
+#include "common/time/time.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace edgesplat::quality {
+
+/// A keyframe as the robot left it in its run folder.
+struct SavedKeyframe {
+  HostTime stamp{};
+  geometry::RigidTransform map_from_camera;
+  geometry::CameraModel camera;  ///< pinhole without distortion
+  std::filesystem::path image;   ///< undistorted
+};
+
+/// Those of `folder` (robot/keyframes of a run) in the order of their stamps. kCorrupt names the file that
+/// cannot be read; kNotFound where there is none.
+[[nodiscard]] Result<std::vector<SavedKeyframe>> read_saved_keyframes(const std::filesystem::path& folder);
+
+}  // namespace edgesplat::quality
