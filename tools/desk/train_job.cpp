@@ -94,6 +94,7 @@ Result<TrainReport> run_train_job(const TrainJob& job, const Clock& clock,
   if (const auto format = io::gaussian_format_of(job.out); !format) {
     return fail(Errc::kInvalidConfig, format.error().context);  // before the work, not after it
   }
+  EDGESPLAT_TRY_STATUS(job.training.validate());
   EDGESPLAT_TRY(Scene scene, read_scene(job.scene, job.pictures));
   const Split split = split_pictures(scene, job.holdout);
   TrainReport report;

@@ -58,9 +58,6 @@ void print_words(const TrainReport& report, const TrainJob& job) {
 }
 
 Status run_train(const TrainJob& job, bool as_json) {
-  if (job.training.iterations == 0 && job.training.seconds <= 0.0) {
-    return fail(Errc::kInvalidConfig, "training has no end: give --iterations or --seconds");
-  }
   const SteadyClock clock;
   const bool for_people = ::isatty(STDERR_FILENO) != 0;
   EDGESPLAT_TRY(const TrainReport report, run_train_job(job, clock, [for_people](const TrainingProgress& p) {

@@ -33,6 +33,8 @@ mapping::OptimiserOptions optimiser_options(const TrainingOptions& options) {
 mapping::DensifyOptions densify_options() {
   mapping::DensifyOptions out;
   out.split_sigma_m = 0.01F * static_cast<float>(kTrainingExtent_m);
+  out.gradient = 1e-4F;
+  out.grow_share = 0.3F;
   out.max_sigma_m = 0.5F * static_cast<float>(kTrainingExtent_m);
   return out;
 }
@@ -132,12 +134,7 @@ class Training {
   TrainingProgress state_;
 };
 
-Status check(std::span<const ScenePicture* const> pictures, const io::PointCloud& points,
-             const TrainingOptions& options) {
-  if (options.iterations == 0 && options.seconds <= 0.0) {
-    return fail(Errc::kInvalidConfig, "training has no end: give iterations or seconds");
-  }
-  if (options.densify_every == 0) return fail(Errc::kInvalidConfig, "densify_every must not be 0");
+Status check(std::span<const ScenePicture* const> pictures, const io::PointCloud& points) {
   if (pictures.empty()) return fail(Errc::kInvalidArgument, "no picture to train on");
   if (points.points_m.size() < kLeastPoints) {
     return fail(Errc::kInvalidArgument, "only " + std::to_string(points.points_m.size()) +
@@ -149,10 +146,20 @@ Status check(std::span<const ScenePicture* const> pictures, const io::PointCloud
 
 }  // namespace
 
+Status TrainingOptions::validate() const {
+  if (iterations == 0 && !(seconds > 0.0)) {
+    return fail(Errc::kInvalidConfig, "training has no end: give iterations or seconds");
+  }
+  if (densify_every == 0) return fail(Errc::kInvalidConfig, "densify_every must not be 0");
+  if (sh_degree < 0 || sh_degree > 3) return fail(Errc::kInvalidConfig, "sh_degree must be 0..3");
+  return {};
+}
+
 Result<TrainedMap> train_map(std::span<const ScenePicture* const> pictures, const io::PointCloud& points,
                              const TrainingOptions& options, const Clock& clock,
                              const std::function<void(const TrainingProgress&)>& tell) {
-  EDGESPLAT_TRY_STATUS(check(pictures, points, options));
+  EDGESPLAT_TRY_STATUS(options.validate());
+  EDGESPLAT_TRY_STATUS(check(pictures, points));
   const double extent = camera_extent(pictures);
   const double scale = kTrainingExtent_m / extent;
   mapping::IdAllocator ids(kOrigin);

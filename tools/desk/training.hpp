@@ -25,6 +25,9 @@ struct TrainingOptions {
   std::uint64_t densify_every = 100;  ///< iterations
   double densify_until = 0.6;         ///< progress
   bool learn_exposure = false;        ///< gain and offset of each training picture
+
+  /// kInvalidConfig for a training without an end and values out of range.
+  [[nodiscard]] Status validate() const;
 };
 
 struct TrainingProgress {

@@ -50,5 +50,24 @@ expect 1 evaluate --estimate "$work/none.tum" --reference "$work/a.tum"
 expect 1 report --run "$work/none"
 expect 2 inspect "$work/a.tum" --extract rig.toml
 
+printf 'ply\nformat ascii 1.0\nelement vertex 1\n' >"$work/a.ply"
+for column in x y z f_dc_0 f_dc_1 f_dc_2 opacity scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3; do
+  echo "property float $column" >>"$work/a.ply"
+done
+printf 'end_header\n0 0 2 1 1 1 3 -3 -3 -3 1 0 0 0\n' >>"$work/a.ply"
+expect 0 convert "$work/a.ply" "$work/a.spz" --json
+expect_one_json_line convert
+expect 0 inspect "$work/a.spz" --json
+expect 2 convert "$work/a.ply" "$work/a.obj"
+expect 1 convert "$work/none.ply" "$work/b.spz"
+echo '{"cameras": [{"width": 32, "height": 24, "fx": 20, "fy": 20, "cx": 16, "cy": 12,
+  "map_from_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}]}' >"$work/cameras.json"
+expect 0 render --map "$work/a.spz" --cameras "$work/cameras.json" --out "$work/drawn" --json
+expect_one_json_line render
+[[ -s $work/drawn/view.png ]] || { failures=$((failures + 1)); echo "render wrote no view.png"; }
+expect 1 render --map "$work/a.spz" --cameras "$work/a.tum" --out "$work/drawn"
+expect 1 train --scene "$work/none" --iterations 1 --out "$work/m.ply"
+expect 2 train --scene "$work" --out "$work/m.ply"
+
 echo "$failures failures"
 exit $((failures > 0))

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace edgesplat::quality {
 namespace {
@@ -28,6 +29,13 @@ TEST(PictureScore, CountsOnlyWhatHasWeight) {
   }
   EXPECT_LT(score_picture(drawn, target, {}, nullptr)->psnr_db, 40.0);
   EXPECT_EQ(score_picture(drawn, target, weight, nullptr)->psnr_db, 100.0);
+}
+
+TEST(PictureScore, SizesMustAgree) {
+  const sensor::ImageRgb8 a(32, 24), b(24, 32);
+  EXPECT_EQ(score_picture(a, b, {}, nullptr).error().code, Errc::kInvalidArgument);
+  const std::vector<float> weight(5);
+  EXPECT_EQ(score_picture(a, a, weight, nullptr).error().code, Errc::kInvalidArgument);
 }
 
 }  // namespace

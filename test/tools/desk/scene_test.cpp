@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/desk/scene.hpp"
+#include "test/tools/desk/wall_scene.hpp"
+#include "tools/desk/scene_start.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+namespace edgesplat::desk {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<const ScenePicture*> pointers(const std::vector<ScenePicture>& pictures) {
+  std::vector<const ScenePicture*> out;
+  for (const ScenePicture& picture : pictures) out.push_back(&picture);
+  return out;
+}
+
+TEST(ReadScene, GivesPicturesWithPosesAndPoints) {
+  const test::TempDir folder;
+  write_wall_scene(folder, 4, 64, 48);
+  std::filesystem::remove(folder / "images" / "view1.png");
+  const auto scene = read_scene(folder.path(), {});
+  ASSERT_TRUE(scene) << scene.error().context;
+  EXPECT_EQ(scene->images_missing, 1U);
+  ASSERT_EQ(scene->pictures.size(), 3U);
+  const ScenePicture truth = WallScene::shoot(2, 64, 48);
+  const ScenePicture& read = scene->pictures[1];
+  EXPECT_EQ(read.name, "view2");
+  EXPECT_EQ(read.picture.values, truth.picture.values);
+  EXPECT_TRUE(read.weight.empty());
+  EXPECT_TRUE(read.map_from_camera.matrix().isApprox(truth.map_from_camera.matrix(), 1e-12));
+  EXPECT_NEAR(read.camera.cx_px, truth.camera.cx_px, 1e-12);
+  EXPECT_TRUE(scene->points.points_m.empty());
+}
+
+TEST(ReadScene, ShrinksPicturesAndCameras) {
+  const test::TempDir folder;
+  write_wall_scene(folder, 1, 128, 96);
+  const auto half = read_scene(folder.path(), {.downscale = 2.0});
+  ASSERT_TRUE(half) << half.error().context;
+  const ScenePicture small = WallScene::shoot(0, 64, 48);
+  ASSERT_EQ(half->pictures[0].camera.width_px, 64);
+  EXPECT_NEAR(half->pictures[0].camera.fx_px, small.camera.fx_px, 1e-9);
+  EXPECT_NEAR(half->pictures[0].camera.cx_px, small.camera.cx_px, 1e-9);
+  double difference = 0.0;
+  for (std::size_t i = 0; i < small.picture.values.size(); ++i) {
+    difference += std::abs(int{half->pictures[0].picture.values[i]} - int{small.picture.values[i]});
+  }
+  EXPECT_LT(difference / static_cast<double>(small.picture.values.size()), 1.5);
+  const auto bounded = read_scene(folder.path(), {.max_side_px = 32});
+  ASSERT_TRUE(bounded);
+  EXPECT_EQ(bounded->pictures[0].camera.width_px, 32);
+  EXPECT_EQ(bounded->pictures[0].camera.height_px, 24);
+}
+
+TEST(ReadScene, ReadsItsPointsAndUndistorts) {
+  const test::TempDir folder;
+  ASSERT_TRUE(io::save_image(folder / "a.png", sensor::ImageRgb8(60, 40, 200)));
+  ASSERT_TRUE(io::write_points_ply(folder / "p.ply", {{{1, 2, 3}}, {{9, 8, 7}}}));
+  folder.write("transforms.json", R"({"fl_x": 40, "w": 60, "h": 40, "k1": -0.2, "ply_file_path": "p.ply",
+      "frames": [{"file_path": "a.png", "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}]})");
+  const auto scene = read_scene(folder / "transforms.json", {});
+  ASSERT_TRUE(scene) << scene.error().context;
+  EXPECT_EQ(scene->points.points_m[0], Eigen::Vector3f(1, 2, 3));
+  const ScenePicture& picture = scene->pictures[0];
+  EXPECT_EQ(picture.camera.distortion[0], 0.0);
+  // A barrel picture holds more than the pinhole shows: everything is seen. The other way round corners are
+  // empty.
+  EXPECT_EQ(picture.picture.pixel(0, 0)[0], 200);
+  folder.write("transforms.json", R"({"fl_x": 40, "w": 60, "h": 40, "k1": 0.2,
+      "frames": [{"file_path": "a.png", "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}]})");
+  const auto pillow = read_scene(folder.path(), {});
+  ASSERT_TRUE(pillow) << pillow.error().context;
+  ASSERT_EQ(pillow->pictures[0].weight.size(), 60U * 40U);
+  EXPECT_EQ(pillow->pictures[0].weight[0], 0.0F);
+  EXPECT_EQ(pillow->pictures[0].weight[20 * 60 + 30], 1.0F);
+}
+
+TEST(ReadScene, SaysWhatIsWrong) {
+  const test::TempDir folder;
+  EXPECT_EQ(read_scene(folder / "nowhere", {}).error().code, Errc::kNotFound);
+  EXPECT_EQ(read_scene(folder.path(), {}).error().code, Errc::kNotFound);
+  write_wall_scene(folder, 2, 32, 24);
+  ASSERT_TRUE(io::save_image(folder / "images" / "view0.png", sensor::ImageRgb8(10, 10)));
+  EXPECT_THAT(read_scene(folder.path(), {}).error().context,
+              HasSubstr("view0.png is 10x10, its camera 32x24"));
+  std::filesystem::remove_all(folder / "images");
+  EXPECT_THAT(read_scene(folder.path(), {}).error().context, HasSubstr("none of the 2 images"));
+}
+
+TEST(Triangulate, FindsTheWall) {
+  std::vector<ScenePicture> shots;
+  for (int i = 0; i < 5; ++i) shots.push_back(WallScene::shoot(i, 320, 240));
+  const auto cloud = triangulate(pointers(shots));
+  ASSERT_TRUE(cloud) << cloud.error().context;
+  ASSERT_GT(cloud->points_m.size(), 200U);
+  ASSERT_EQ(cloud->rgb.size(), cloud->points_m.size());
+  std::size_t near = 0, right_colour = 0;
+  for (std::size_t i = 0; i < cloud->points_m.size(); ++i) {
+    const Eigen::Vector3f& p = cloud->points_m[i];
+    near += std::abs(p.z()) < 0.05F ? 1U : 0U;  // half a pixel for the nearest pair
+    const auto truth = WallScene::colour(static_cast<double>(p.x()), static_cast<double>(p.y()));
+    right_colour += std::abs(255.0F * truth[0] - static_cast<float>(cloud->rgb[i][0])) < 30.0F ? 1U : 0U;
+  }
+  EXPECT_GT(near, cloud->points_m.size() * 95 / 100);
+  EXPECT_GT(right_colour, cloud->points_m.size() * 9 / 10);
+}
+
+TEST(Triangulate, PicturesOfNothingGiveNoPoints) {
+  const ScenePicture blank{"a", WallScene::camera(64, 48), WallScene::pose(0), {64, 48}, {}};
+  ScenePicture other = blank;
+  other.map_from_camera = WallScene::pose(3);
+  EXPECT_TRUE(triangulate(pointers({blank, other})).value().points_m.empty());
+  EXPECT_TRUE(triangulate({}).value().points_m.empty());
+}
+
+TEST(GaussiansOfPoints, AreAsWideAsTheirNeighboursAreFar) {
+  io::PointCloud points;
+  for (int x = 0; x < 8; ++x) {
+    for (int y = 0; y < 8; ++y)
+      points.points_m.emplace_back(0.01F * static_cast<float>(x), 0.01F * static_cast<float>(y), 0.0F);
+  }
+  points.points_m.emplace_back(3.0F, 0.0F, 0.0F);  // far from all others
+  points.rgb.assign(points.points_m.size(), {255, 128, 0});
+  mapping::IdAllocator ids(1);
+  const auto cloud = gaussians_of_points(points, 5.0, 1000, ids);
+  ASSERT_TRUE(cloud.consistent());
+  ASSERT_EQ(cloud.size(), 65U);
+  EXPECT_NEAR(cloud.log_scales[3 * 27], std::log(0.01F), 1e-3F);  // in the middle: all three at 1 cm
+  EXPECT_NEAR(cloud.log_scales[3 * 64], std::log(5.0F / 16.0F), 1e-3F);
+  EXPECT_NEAR(0.5F + gaussian::GaussianCloud::kShC0 * cloud.sh[0], 1.0F, 1e-5F);
+  EXPECT_NEAR(cloud.opacity_logits[0], std::log(1.0F / 9.0F), 1e-4F);
+  EXPECT_LE(gaussians_of_points(points, 5.0, 20, ids).size(), 20U);
+}
+
+}  // namespace
+}  // namespace edgesplat::desk
