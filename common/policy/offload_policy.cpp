@@ -97,14 +97,21 @@ void OffloadPolicy::consider_upgrade(const Situation& s) {
   const Reason load = load_trigger(s);
   // Once offloaded the load is the server's: only the link decides between LEAN and FULL.
   const bool wanted = decision_.mode != Mode::kLocal || load != Reason::kNone;
-  const Mode allowed =
-      server_alive(s) && !s.offload_failed ? link_allows(s, config_.enter_factor, 1.0) : Mode::kLocal;
+  const Mode allowed = server_alive(s) && s.in_step && !s.offload_failed
+                           ? link_allows(s, config_.enter_factor, 1.0)
+                           : Mode::kLocal;
   upgrade_windows_ = wanted && allowed > decision_.mode ? upgrade_windows_ + 1 : 0;
   if (decision_.mode == Mode::kLocal)
     decision_.prune_and_compress = load != Reason::kNone && allowed == Mode::kLocal;
   if (upgrade_windows_ < config_.windows_in_a_row || !upgrade_is_due(s.now)) return;
   switch_to(allowed, decision_.mode == Mode::kLocal ? load : Reason::kBandwidth, s.now);
   decision_.prune_and_compress = false;
+}
+
+bool OffloadPolicy::bandwidth_matters(const Situation& s) const {
+  if (config_.setting == OffloadSetting::kNever || decision_.mode == Mode::kFull || !server_alive(s))
+    return false;
+  return decision_.mode == Mode::kLean || load_trigger(s) != Reason::kNone;
 }
 
 Decision OffloadPolicy::evaluate(const Situation& s) {

@@ -62,6 +62,7 @@ struct Situation {
   std::optional<double> bandwidth_bytes_per_s;  ///< BandwidthEstimator
   std::optional<double> round_trip_ms;
   std::optional<HostTime> last_heartbeat;  ///< of the server
+  bool in_step = true;                     ///< the robot's map follows the server's; upgrades wait for it
   bool offload_failed = false;             ///< an offload in progress did not come to an end
 };
 
@@ -83,6 +84,8 @@ class OffloadPolicy {
 
   /// To be called every evaluation_period_s; calls that come sooner return the standing decision.
   [[nodiscard]] Decision evaluate(const Situation& situation);
+  /// A wider link could change the mode: the bandwidth is worth measuring.
+  [[nodiscard]] bool bandwidth_matters(const Situation& situation) const;
 
  private:
   [[nodiscard]] bool server_alive(const Situation& s) const;

@@ -5,32 +5,41 @@
 #include "common/link/transport.hpp"
 #include "common/metrics/registry.hpp"
 #include "common/time/clock.hpp"
+#include "robot/app/offload_loop.hpp"
 #include "robot/config/robot_config.hpp"
 #include "robot/map/resident_map.hpp"
+#include "robot/offload/offload_control.hpp"
 #include "robot/uplink/downlink.hpp"
 #include "robot/uplink/uplink.hpp"
 
 #include <condition_variable>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 
 namespace edgesplat::app {
 
-/// The robot's side of the shared map: keyframes go up, deltas come down into the resident map. Nothing here
-/// makes a caller wait for the server. Thread-safe.
+/// The robot's side of the shared map: keyframes go up as the offloading decision says, deltas come down into
+/// the resident map. Nothing here makes a caller wait for the server. Thread-safe.
 class MapShare {
  public:
   /// kUnavailable, kIo where the transport cannot be opened (wrong interface, ...).
-  static Result<std::unique_ptr<MapShare>> create(const robot_config::RobotConfig& config,
-                                                  const Clock& clock);
+  /// `robot_folder`: of the run, for the timeline of modes and the spool; empty: neither is written.
+  static Result<std::unique_ptr<MapShare>> create(const robot_config::RobotConfig& config, const Clock& clock,
+                                                  const std::filesystem::path& robot_folder = {});
   /// Over a transport of the caller's, for tests.
   MapShare(const robot_config::RobotConfig& config, std::unique_ptr<link::Transport> transport,
-           const Clock& clock);
+           const Clock& clock, const std::filesystem::path& robot_folder = {});
   ~MapShare();
   MapShare(const MapShare&) = delete;
   MapShare& operator=(const MapShare&) = delete;
 
   void submit(std::shared_ptr<const map::Keyframe> keyframe);
+  /// A picture took so long to draw.
+  void on_picture(double render_ms) { control_->on_picture(render_ms); }
+  /// The robot's own mapping, for LOCAL; null for none. Must outlive this or be taken away again.
+  void set_local_mapping(offload::LocalMapping* local) { offload_->set_local_mapping(local); }
+  [[nodiscard]] policy::Mode mode() const { return control_->last().decision.mode; }
   [[nodiscard]] std::shared_ptr<const gaussian::GaussianCloud> snapshot() const {
     return resident_.snapshot();
   }
@@ -47,6 +56,7 @@ class MapShare {
  private:
   void on_heartbeat(const link::Heartbeat& heartbeat);
   void send_requests();
+  [[nodiscard]] link::Heartbeat heartbeat() const;
 
   const Clock& clock_;
   std::unique_ptr<link::Transport> transport_;
@@ -54,8 +64,10 @@ class MapShare {
   std::mutex agreement_mutex_;
   std::condition_variable agreement_changed_;
   int agreeing_heartbeats_ = 0;  ///< in a row that say: nothing queued, and all that was made is applied here
+  std::unique_ptr<offload::OffloadControl> control_;
   std::unique_ptr<uplink::Downlink> downlink_;
   std::unique_ptr<uplink::Uplink> uplink_;
+  std::unique_ptr<OffloadLoop> offload_;
 };
 
 }  // namespace edgesplat::app

@@ -33,6 +33,10 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.add_option("--out", o.out, "Run folder for trajectory, metrics, map and pictures");
   std::string server;
   app.add_option("--server", server, "Share the map with a server")->check(CLI::IsMember({"on", "off"}));
+  app.add_option("--offload", o.offload,
+                 "When the server does the mapping: auto = when rendering is slow or memory short, always = "
+                 "whenever the link allows it, never")
+      ->check(CLI::IsMember({"auto", "always", "never"}));
   app.add_option("--interface", o.interface_name, "Network interface to the server");
   app.add_option("--domain", o.domain, "DDS domain, shared with the server")->check(CLI::Range(0, 230));
   app.add_option("--points-port", o.points_port, "UDP port of the LiDAR's points")

@@ -22,7 +22,8 @@ struct Options {
   std::filesystem::path record;        ///< empty: none
   std::filesystem::path out;           ///< run folder; empty: nothing is written
   std::optional<int> threads;
-  std::optional<bool> server;  ///< --server on|off
+  std::optional<bool> server;          ///< --server on|off
+  std::optional<std::string> offload;  ///< --offload auto|always|never
   std::optional<std::string> interface_name;
   std::optional<int> domain;
   std::optional<int> points_port;

@@ -11,10 +11,11 @@
 namespace edgesplat::app {
 
 RenderLoop::RenderLoop(const RenderLoopConfig& config, const sensor::CameraMount& camera, MapView map_view,
-                       const Clock& clock, metrics::Registry& metrics)
+                       const Clock& clock, metrics::Registry& metrics, PictureListener on_picture)
     : config_(config),
       camera_{image::undistorted_model(camera.model), camera.body_from_camera, camera.stamp_delay_s},
       map_view_(std::move(map_view)),
+      on_picture_(std::move(on_picture)),
       clock_(clock),
       frame_ms_(metrics.histogram("render.frame_ms")),
       frames_(metrics.counter("render.frames")),
@@ -47,7 +48,9 @@ void RenderLoop::draw(const geometry::RigidTransform& map_from_body) {
     return;
   }
   frames_.add();
-  frame_ms_.record(to_seconds(clock_.now() - start) * 1e3);
+  const double took_ms = to_seconds(clock_.now() - start) * 1e3;
+  frame_ms_.record(took_ms);
+  if (on_picture_) on_picture_(took_ms);
 }
 
 }  // namespace edgesplat::app

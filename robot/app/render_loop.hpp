@@ -24,8 +24,11 @@ class RenderLoop {
  public:
   using MapView = std::function<std::shared_ptr<const gaussian::GaussianCloud>()>;
 
+  /// Told on the render thread how long each picture took, in ms.
+  using PictureListener = std::function<void(double)>;
+
   RenderLoop(const RenderLoopConfig& config, const sensor::CameraMount& camera, MapView map_view,
-             const Clock& clock, metrics::Registry& metrics);
+             const Clock& clock, metrics::Registry& metrics, PictureListener on_picture = {});
   ~RenderLoop();
   RenderLoop(const RenderLoop&) = delete;
   RenderLoop& operator=(const RenderLoop&) = delete;
@@ -38,6 +41,7 @@ class RenderLoop {
   RenderLoopConfig config_;
   sensor::CameraMount camera_;
   MapView map_view_;
+  PictureListener on_picture_;
   const Clock& clock_;
   metrics::Histogram& frame_ms_;
   metrics::Counter& frames_;

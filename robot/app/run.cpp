@@ -28,6 +28,7 @@ Result<robot_config::RobotConfig> load_config(const Options& o) {
     EDGESPLAT_TRY(file, config::ConfigFile::load(o.config_file));
   }
   for (const std::string& assignment : o.overrides) EDGESPLAT_TRY_STATUS(file.apply_override(assignment));
+  if (o.offload) EDGESPLAT_TRY_STATUS(file.apply_override("offload.setting=" + *o.offload));
   robot_config::RobotConfig config;
   EDGESPLAT_TRY_STATUS(file.read_into(config));
   if (o.threads) config.tracking.threads = *o.threads;
@@ -70,7 +71,7 @@ Status run_threads(const Options& o, const robot_config::RobotConfig& config, co
   if (share != nullptr && rig.camera) {
     render.emplace(
         RenderLoopConfig{config.render.target_hz}, *rig.camera, [share] { return share->snapshot(); }, clock,
-        metrics);
+        metrics, [share](double render_ms) { share->on_picture(render_ms); });
   }
   Progress progress(o.json_progress, clock);
   const auto on_pose = [&](const TrackedFrame& frame) {
@@ -174,7 +175,7 @@ Status run_robot(const Options& o, std::stop_token stop) {
   metrics::Registry metrics;
   std::unique_ptr<MapShare> share;
   if (config.server.enabled) {
-    EDGESPLAT_TRY(share, MapShare::create(config, clock));
+    EDGESPLAT_TRY(share, MapShare::create(config, clock, folder ? folder->robot_folder() : ""));
   }
   const auto sink = [&](std::shared_ptr<const map::Keyframe> keyframe) {
     if (share) share->submit(std::move(keyframe));

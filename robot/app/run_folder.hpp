@@ -26,6 +26,7 @@ class RunFolder {
   /// Trajectory, pictures, maps. `cloud` is the resident map at the end.
   [[nodiscard]] Status write_results(const KeyframeStage& keyframes, const gaussian::GaussianCloud& cloud,
                                      const geometry::RigidTransform& map_from_odom) const;
+  [[nodiscard]] const std::filesystem::path& robot_folder() const { return robot_folder_; }
   [[nodiscard]] Status write_metrics(const metrics::Registry& metrics) const;
 
  private:

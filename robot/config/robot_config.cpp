@@ -36,6 +36,44 @@ void describe_uplink(ConfigReader& reader, uplink::UplinkConfig& c) {
   reader.field("robot", c.robot.value, {1, 65535}, "this robot's number; deltas for others are refused");
   reader.field("queue_keyframes", c.queue_keyframes, {1, 1024}, "waiting keyframes, oldest dropped first");
   reader.field("heartbeat_period_s", c.heartbeat_period_s, Range{0.05, 10.0}, "to the server");
+  reader.field("full_bytes_per_s", c.router.full_bytes_per_s, Range{0.0, 1e9},
+               "mean of the keyframes sent in FULL, 0 = no limit");
+  reader.field("lean_bytes_per_s", c.router.lean_bytes_per_s, Range{0.0, 1e9}, "and in LEAN");
+  reader.field("lean_every", c.router.lean_every, {1, 100},
+               "of the keyframes in LEAN one in so many is sent");
+  reader.field("full_keyframe_bytes", c.full_keyframe_bytes, {0, 1U << 25U},
+               "larger keyframes are slimmed to about this in FULL, 0 = never");
+  reader.field("lean_keyframe_bytes", c.lean_keyframe_bytes, {0, 1U << 25U}, "and in LEAN");
+  reader.field("spool_memory_bytes", c.spool.memory_bytes, {0, std::size_t{1} << 40U},
+               "keyframes that were not sent, in memory");
+  reader.field("spool_disk_bytes", c.spool.disk_bytes, {0, std::size_t{1} << 40U},
+               "and in the run folder, oldest dropped first");
+}
+
+void describe_offload(ConfigReader& reader, OffloadSettings& c) {
+  policy::OffloadConfig& p = c.policy;
+  reader.choice("setting", p.setting,
+                {{"auto", policy::OffloadSetting::kAuto},
+                 {"always", policy::OffloadSetting::kAlways},
+                 {"never", policy::OffloadSetting::kNever}},
+                "auto = when rendering is slow or memory short, always = whenever the link allows it");
+  reader.field("latency_threshold_ms", p.latency_threshold_ms, Range{0.001, 1000.0},
+               "a picture's render time, p95 of 2 s");
+  reader.field("memory_threshold_bytes", p.memory_threshold_bytes, Range{1e6, 1e12}, "of this process");
+  reader.field("memory_reserve_bytes", c.memory_reserve_bytes, {0, std::uint64_t{1} << 40U},
+               "less left in the machine counts as memory short");
+  reader.field("full_bandwidth_bytes_per_s", p.full_bandwidth_bytes_per_s, Range{1e3, 1e9}, "FULL needs");
+  reader.field("lean_bandwidth_bytes_per_s", p.lean_bandwidth_bytes_per_s, Range{1e3, 1e9}, "LEAN needs");
+  reader.field("round_trip_threshold_ms", p.round_trip_threshold_ms, Range{1.0, 10000.0}, "both need less");
+  reader.field("switch_interval_s", p.switch_interval_s, Range{0.0, 600.0},
+               "an upgrade waits this long after a switch");
+  reader.field("server_timeout_s", p.server_timeout_s, Range{0.5, 60.0},
+               "without a heartbeat the server is lost");
+  reader.field("evaluation_period_s", p.evaluation_period_s, Range{0.05, 5.0}, "between two decisions");
+  reader.field("windows_in_a_row", p.windows_in_a_row, {1, 20}, "decisions that must agree");
+  if (p.full_bandwidth_bytes_per_s <= p.lean_bandwidth_bytes_per_s) {
+    reader.problem("full_bandwidth_bytes_per_s", "must be more than lean_bandwidth_bytes_per_s");
+  }
 }
 
 void describe_map(ConfigReader& reader, map::ResidentMapConfig& c) {
@@ -60,6 +98,7 @@ void describe(ConfigReader& reader, RobotConfig& c) {
   reader.table("tracking", "groups to poses", [&] { describe(reader, c.tracking); });
   reader.table("keyframe", "poses and pictures to keyframes", [&] { describe(reader, c.keyframe); });
   reader.table("uplink", "keyframes to the server", [&] { describe_uplink(reader, c.uplink); });
+  reader.table("offload", "where the mapping is done", [&] { describe_offload(reader, c.offload); });
   reader.table("map", "the resident map", [&] { describe_map(reader, c.map); });
   reader.table("render", "the live picture", [&] {
     reader.field("target_hz", c.render.target_hz, Range{0.0, 120.0}, "pictures a second at most, 0 = never");

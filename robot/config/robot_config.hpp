@@ -4,6 +4,7 @@
 
 #include "common/base/result.hpp"
 #include "common/link/link_config.hpp"
+#include "common/policy/offload_policy.hpp"
 #include "robot/keyframe/keyframe_config.hpp"
 #include "robot/map/resident_map.hpp"
 #include "robot/sync/group_builder.hpp"
@@ -34,6 +35,30 @@ struct RenderSettings {
   double target_hz = 5.0;  ///< at most this many pictures a second, 0 = never
 };
 
+/// Algorithm 1's defaults here: the best map, and LOCAL within 2 s of the server's death.
+[[nodiscard]] inline policy::OffloadConfig always_offload() {
+  policy::OffloadConfig config;
+  config.setting = policy::OffloadSetting::kAlways;
+  config.server_timeout_s = 1.5;  // with an evaluation every 0.5 s
+  return config;
+}
+
+struct OffloadSettings {
+  policy::OffloadConfig policy = always_offload();
+  std::uint64_t memory_reserve_bytes = std::uint64_t{200}
+                                       << 20U;  ///< less left in the machine: as if over T_M
+};
+
+/// The uplink's defaults with the budgets of link-and-offload.md.
+[[nodiscard]] inline uplink::UplinkConfig budgeted_uplink() {
+  uplink::UplinkConfig config;
+  config.router.full_bytes_per_s = 280e3;  // of 300 kB/s, the rest for heartbeats, repetitions and probes
+  config.router.lean_bytes_per_s = 54e3;   // of 60 kB/s
+  config.full_keyframe_bytes = 60'000;
+  config.lean_keyframe_bytes = 40'000;
+  return config;
+}
+
 struct ServerLink {
   bool enabled = true;
   link::LinkConfig link;
@@ -47,7 +72,8 @@ struct RobotConfig {
   sync::GroupBuilderConfig sync;
   tracking::TrackingConfig tracking;
   keyframe::KeyframeConfig keyframe;
-  uplink::UplinkConfig uplink;
+  uplink::UplinkConfig uplink = budgeted_uplink();
+  OffloadSettings offload;
   map::ResidentMapConfig map;
   RenderSettings render;
   ServerLink server;

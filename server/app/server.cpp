@@ -47,12 +47,18 @@ bool Server::receive_step(const std::stop_token& stop) {
       send(stage_.answer(*message));
       break;
     case link::Lane::kHeartbeat:
+      hear(message->robot);
       stage_.take_heartbeat(*message);
       break;
     default:
       break;
   }
   return true;
+}
+
+void Server::hear(map::RobotId robot) {
+  const std::lock_guard lock(heard_mutex_);
+  if (heard_.size() < config_.max_robots) heard_.insert(robot);
 }
 
 void Server::take_keyframe(const link::Message& message) {
@@ -84,16 +90,31 @@ void Server::send(std::vector<OutgoingDelta> deltas) {
 
 void Server::send_heartbeats() {
   const link::LinkCounters counters = transport_.counters();
-  const auto& down = counters[static_cast<std::size_t>(link::Lane::kDelta)];
-  for (const MapStatus& status : stage_.status()) {
-    link::Heartbeat heartbeat;
-    heartbeat.epoch = status.epoch;
-    heartbeat.seq = status.seq;
-    heartbeat.map_hash = status.map_hash;
-    heartbeat.queued_messages = static_cast<std::uint32_t>(down.queued_messages + down.flying_messages);
-    heartbeat.queued_bytes = down.queued_bytes + down.flying_bytes;
-    (void)transport_.send(link::Lane::kHeartbeat, status.robot, link::encode_heartbeat(heartbeat));
+  const auto& down = counters[link::index_of(link::Lane::kDelta)];
+  std::set<map::RobotId> without_map;
+  {
+    const std::lock_guard lock(heard_mutex_);
+    without_map = heard_;
   }
+  for (const MapStatus& status : stage_.status()) {
+    send_heartbeat(status, down);
+    without_map.erase(status.robot);
+  }
+  for (const map::RobotId robot : without_map) {
+    MapStatus none;
+    none.robot = robot;
+    send_heartbeat(none, down);
+  }
+}
+
+void Server::send_heartbeat(const MapStatus& status, const link::LaneCounters& down) {
+  link::Heartbeat heartbeat;
+  heartbeat.epoch = status.epoch;
+  heartbeat.seq = status.seq;
+  heartbeat.map_hash = status.map_hash;
+  heartbeat.queued_messages = static_cast<std::uint32_t>(down.queued_messages + down.flying_messages);
+  heartbeat.queued_bytes = down.queued_bytes + down.flying_bytes;
+  (void)transport_.send(link::Lane::kHeartbeat, status.robot, link::encode_heartbeat(heartbeat));
 }
 
 nanoseconds Server::idle() const {

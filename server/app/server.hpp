@@ -9,7 +9,10 @@
 
 #include <atomic>
 #include <filesystem>
+#include <mutex>
 #include <optional>
+#include <set>
+#include <vector>
 
 namespace edgesplat::app {
 
@@ -36,9 +39,11 @@ class Server {
 
  private:
   bool receive_step(const std::stop_token& stop);
+  void hear(map::RobotId robot);
   void take_keyframe(const link::Message& message);
   bool map_step();
   void send(std::vector<OutgoingDelta> deltas);
+  void send_heartbeat(const MapStatus& status, const link::LaneCounters& down);
 
   const config::ServerConfig& config_;
   link::Transport& transport_;
@@ -48,6 +53,8 @@ class Server {
   metrics::Histogram& keyframe_to_delta_ms_;
   metrics::Counter& deltas_refused_;
   std::atomic<std::int64_t> last_keyframe_ns_;
+  std::mutex heard_mutex_;
+  std::set<map::RobotId> heard_;  ///< robots that are there, perhaps without a map; at most max_robots
   thread::BoundedQueue<ingest::IngestedKeyframe> queue_;
   std::optional<thread::Worker> receiver_;
   std::optional<thread::Worker> mapper_;

@@ -20,7 +20,7 @@ class RobotEnd {
 
   explicit RobotEnd(std::shared_ptr<link::DdsDomain> domain)
       : transport_(*link::open_dds_transport(std::move(domain), {link::Role::kRobot, kRobot, 0}, clock_)),
-        uplink_({kRobot, 32, 0.2}, *transport_, clock_),
+        uplink_(uplink::UplinkConfig{}, *transport_, clock_),
         downlink_(*transport_, {[this](std::span<const std::byte> bytes) { on_delta(bytes); },
                                 [this](const link::Heartbeat& heartbeat) { on_heartbeat(heartbeat); },
                                 [this] { map_.publish_if_due(clock_.now()); }}) {}

@@ -130,6 +130,43 @@ TEST(Uplink, HeartbeatsCarryWhatTheSourceSays) {
   }
 }
 
+/// Numbers of the keyframes that came on a lane so far.
+std::vector<std::uint32_t> came(link::Transport& server, link::Lane lane, std::size_t count) {
+  std::vector<std::uint32_t> ids;
+  while (ids.size() < count) {
+    const auto message = server.receive(kPatience);
+    if (!message) break;
+    if (message->lane == lane) ids.push_back(map::decode_keyframe(message->bytes)->id.value);
+  }
+  return ids;
+}
+
+TEST(Uplink, LeanSendsEveryThirdAndTheOthersFollowWhenTheLinkIsIdle) {
+  const SteadyClock clock;
+  const auto link = link::make_in_process_link(kRobot);
+  Uplink uplink(UplinkConfig{}, *link.robot, clock);
+  uplink.set_mode(link::OffloadMode::kLean);
+  for (std::uint32_t id = 1; id <= 9; ++id) (void)uplink.submit(keyframe(id));
+  EXPECT_EQ(came(*link.server, link::Lane::kKeyframe, 3), (std::vector<std::uint32_t>{1, 4, 7}));
+  EXPECT_EQ(came(*link.server, link::Lane::kSpool, 6), (std::vector<std::uint32_t>{2, 3, 5, 6, 8, 9}));
+  EXPECT_EQ(uplink.counters().kept_by_mode, 6U);
+}
+
+TEST(Uplink, LocalKeepsAllAndFullSendsThemOldestFirst) {
+  const SteadyClock clock;
+  const auto link = link::make_in_process_link(kRobot);
+  Uplink uplink(UplinkConfig{}, *link.robot, clock);
+  uplink.set_mode(link::OffloadMode::kLocal);
+  for (std::uint32_t id = 1; id <= 5; ++id) (void)uplink.submit(keyframe(id));
+  EXPECT_FALSE(uplink.drain(std::chrono::milliseconds(300)));
+  EXPECT_EQ(uplink.counters().spool.items, 5U);
+  EXPECT_EQ(uplink.counters().handed_on, 0U);
+  uplink.set_mode(link::OffloadMode::kFull);
+  EXPECT_TRUE(uplink.drain(kPatience));
+  EXPECT_EQ(came(*link.server, link::Lane::kSpool, 5), (std::vector<std::uint32_t>{1, 2, 3, 4, 5}));
+  EXPECT_EQ(uplink.counters().spool.items, 0U);
+}
+
 TEST(Downlink, HandsDeltasAndHeartbeatsToTheirTakers) {
   const auto link = link::make_in_process_link(kRobot);
   std::mutex mutex;

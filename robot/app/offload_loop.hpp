@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/thread/worker.hpp"
+#include "robot/offload/local_mapping.hpp"
+#include "robot/offload/mode_timeline.hpp"
+#include "robot/offload/offload_control.hpp"
+#include "robot/uplink/uplink.hpp"
+
+#include <atomic>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+
+namespace edgesplat::app {
+
+/// What the decision acts on; all must outlive the loop.
+struct OffloadTargets {
+  link::Transport& transport;
+  uplink::Uplink& uplink;
+};
+
+/// Evaluates the offloading decision on a thread of its own and applies it: the uplink's mode, probing, the
+/// robot's own mapping, the log and the timeline. Thread-safe.
+class OffloadLoop {
+ public:
+  /// `timeline`: file to write, or empty. The first evaluation is made before this returns.
+  OffloadLoop(offload::OffloadControl& control, const OffloadTargets& targets, double period_s,
+              const std::filesystem::path& timeline, const Clock& clock);
+  ~OffloadLoop();
+  OffloadLoop(const OffloadLoop&) = delete;
+  OffloadLoop& operator=(const OffloadLoop&) = delete;
+
+  /// The robot's own mapping, null for none; must outlive the loop or be taken away again.
+  void set_local_mapping(offload::LocalMapping* local);
+  /// Hands a keyframe to the robot's own mapping where the mode is LOCAL.
+  void submit(const std::shared_ptr<const map::Keyframe>& keyframe);
+  /// Mode changes so far.
+  [[nodiscard]] std::uint64_t switches() const { return switches_.load(); }
+
+ private:
+  void evaluate();
+  void log_change(const offload::OffloadRecord& record);
+
+  offload::OffloadControl& control_;
+  const OffloadTargets targets_;
+  const nanoseconds period_;
+  offload::ModeTimeline timeline_;
+  std::atomic<std::uint64_t> switches_ = 0;
+  std::mutex local_mutex_;
+  offload::LocalMapping* local_ = nullptr;
+  std::mutex sleep_mutex_;
+  std::condition_variable_any sleep_;
+  std::optional<thread::Worker> worker_;
+};
+
+}  // namespace edgesplat::app
