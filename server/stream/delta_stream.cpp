@@ -39,7 +39,7 @@ std::vector<Bytes> DeltaStream::publish(const gaussian::GaussianCloud& cloud,
   waiting_.clear();
   send_removed(std::move(changes.left), out);
   send_added(map::sorted_by_chunk(changes.added), out);
-  send_updates(changes, out);
+  send_updates(cloud, std::move(changes.updates), out);
   return std::move(out.deltas);
 }
 
@@ -66,7 +66,7 @@ map::ChunkId DeltaStream::place(const gaussian::GaussianCloud& cloud, std::size_
 DeltaStream::Changes DeltaStream::sort_out(const gaussian::GaussianCloud& cloud,
                                            std::span<const std::uint32_t> rows) {
   Changes changes;
-  changes.added.sh_degree = changes.now.sh_degree = cloud.sh_degree;
+  changes.added.sh_degree = cloud.sh_degree;
   for (const std::uint32_t row : rows) {
     if (map::unquantisable(cloud, row) != nullptr) {
       ++counters_.unquantisable;
@@ -79,14 +79,8 @@ DeltaStream::Changes DeltaStream::sort_out(const gaussian::GaussianCloud& cloud,
     } else if (!held || held_.rows().chunks[*held] != chunk) {
       map::append_quantised(cloud, row, chunk, changes.added);
     } else {
-      const RowChange change =
-          settle_change({cloud, row}, {held_.rows(), *held}, config_.tolerance, changes.now);
-      if (change.fields == 0) {
-        changes.now.resize(changes.now.size() - 1);
-      } else {
-        changes.updates.push_back(
-            {change.priority, change.fields, static_cast<std::uint32_t>(changes.now.size() - 1)});
-      }
+      const RowChange change = measure_change({cloud, row}, {held_.rows(), *held}, config_.tolerance);
+      if (change.fields != 0) changes.updates.push_back({change.priority, change.fields, row});
     }
   }
   return changes;
@@ -137,8 +131,8 @@ void DeltaStream::send_added(map::QuantisedRows rows, Outbox& out) {
   waiting_.insert(rows.ids.begin() + static_cast<std::ptrdiff_t>(first), rows.ids.end());
 }
 
-void DeltaStream::send_updates(Changes& changes, Outbox& out) {
-  auto& updates = changes.updates;
+void DeltaStream::send_updates(const gaussian::GaussianCloud& cloud, std::vector<Update> updates,
+                               Outbox& out) {
   std::size_t fitting = 0;
   if (!out.full()) {
     const double room_bytes = static_cast<double>(out.budget_bytes - out.bytes);
@@ -147,25 +141,35 @@ void DeltaStream::send_updates(Changes& changes, Outbox& out) {
   const auto middle = updates.begin() + static_cast<std::ptrdiff_t>(fitting);
   std::nth_element(updates.begin(), middle, updates.end(),
                    [](const auto& a, const auto& b) { return a.priority > b.priority; });
-  for (auto left = middle; left != updates.end(); ++left) waiting_.insert(changes.now.ids[left->row]);
+  for (auto left = middle; left != updates.end(); ++left) waiting_.insert(cloud.ids[left->row]);
   updates.erase(middle, updates.end());
   std::sort(updates.begin(), updates.end(),
-            [&](const auto& a, const auto& b) { return changes.now.ids[a.row] < changes.now.ids[b.row]; });
+            [&](const auto& a, const auto& b) { return cloud.ids[a.row] < cloud.ids[b.row]; });
   for (std::size_t first = 0; first < updates.size(); first += config_.max_rows) {
-    const std::size_t end = std::min(first + config_.max_rows, updates.size());
-    map::UpdateBody body;
-    body.differences.sh_degree = changes.now.sh_degree;
-    for (std::size_t i = first; i < end; ++i) {
-      const std::uint32_t held_row = *held_.find(changes.now.ids[updates[i].row]);
-      map::append_difference(changes.now, updates[i].row, held_.rows(), held_row, body.differences);
-      body.fields |= updates[i].fields;
-    }
-    if (!emit({{}, std::move(body)}, out)) return;
-    counters_.updated += end - first;
-    counters_.update_bytes += out.last_bytes;
-    const double each = static_cast<double>(out.last_bytes) / static_cast<double>(end - first);
-    bytes_per_update_ += 0.5 * (std::min(each, 64.0) - bytes_per_update_);
+    const std::size_t count = std::min(config_.max_rows, updates.size() - first);
+    if (!send_update(cloud, std::span(updates).subspan(first, count), out)) return;
   }
+}
+
+bool DeltaStream::send_update(const gaussian::GaussianCloud& cloud, std::span<const Update> updates,
+                              Outbox& out) {
+  map::UpdateBody body;
+  body.differences.sh_degree = cloud.sh_degree;
+  map::QuantisedRows now;
+  now.sh_degree = cloud.sh_degree;
+  for (const Update& update : updates) {
+    const HeldRow held{held_.rows(), *held_.find(cloud.ids[update.row])};
+    if (!append_settled({cloud, update.row}, held, update.fields, now)) continue;
+    map::append_difference(now, now.size() - 1, held.rows, held.row, body.differences);
+    body.fields |= update.fields;
+  }
+  if (now.size() == 0) return true;
+  if (!emit({{}, std::move(body)}, out)) return false;
+  counters_.updated += now.size();
+  counters_.update_bytes += out.last_bytes;
+  const double each = static_cast<double>(out.last_bytes) / static_cast<double>(now.size());
+  bytes_per_update_ += 0.5 * (std::min(each, 64.0) - bytes_per_update_);
+  return true;
 }
 
 std::vector<Bytes> DeltaStream::repose(std::span<const map::PoseCorrection> corrections) {

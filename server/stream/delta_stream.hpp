@@ -86,11 +86,18 @@ class DeltaStream {
  private:
   struct Outbox;
   struct Changes;
+  /// A Gaussian of the cloud that differs from what the robot holds.
+  struct Update {
+    float priority;
+    map::FieldMask fields;
+    std::uint32_t row;
+  };
   // All with mutex_ held.
   bool emit(map::Delta delta, Outbox& out);
   void send_removed(std::vector<gaussian::GaussianId> ids, Outbox& out);
   void send_added(map::QuantisedRows rows, Outbox& out);
-  void send_updates(Changes& changes, Outbox& out);
+  void send_updates(const gaussian::GaussianCloud& cloud, std::vector<Update> updates, Outbox& out);
+  bool send_update(const gaussian::GaussianCloud& cloud, std::span<const Update> updates, Outbox& out);
   void send_chunks(const gaussian::GaussianCloud& cloud, Outbox& out);
   void send_chunk(const gaussian::GaussianCloud& cloud, const map::ChunkId& chunk,
                   std::span<const std::uint32_t> rows, Outbox& out);

@@ -26,12 +26,12 @@ struct Size {
 };
 
 Size size_of(const map::Channels& channels) {
-  std::array<float, 3> axes_m{};
-  for (std::size_t k = 0; k < 3; ++k)
-    axes_m[k] = std::exp(map::decode_log_scale(channels[map::kLogScaleAt + k]));
-  const auto [least, most] = std::minmax_element(axes_m.begin(), axes_m.end());
-  const float least_m = std::max(*least, 1e-3F);  // thinner than a millimetre looks the same
-  return {least_m, std::cbrt(axes_m[0] * axes_m[1] * axes_m[2]), std::clamp(*most / least_m, 1.0F, 8.0F)};
+  std::array<float, 3> logs{};
+  for (std::size_t k = 0; k < 3; ++k) logs[k] = map::decode_log_scale(channels[map::kLogScaleAt + k]);
+  const auto [least, most] = std::minmax_element(logs.begin(), logs.end());
+  const float least_m = std::max(std::exp(*least), 1e-3F);  // thinner than a millimetre looks the same
+  return {least_m, std::exp((logs[0] + logs[1] + logs[2]) / 3.0F),
+          std::clamp(std::exp(*most) / least_m, 1.0F, 8.0F)};
 }
 
 float mean_difference_m(const TrueRow& truth, const map::DecodedPose& held) {
@@ -54,9 +54,12 @@ float turn_rad(const TrueRow& truth, const map::DecodedPose& held) {
   return static_cast<float>(2.0 * std::sqrt(2.0 * std::max(0.0, 1.0 - std::abs(dot) / std::sqrt(norm2))));
 }
 
+float alpha_of(const TrueRow& truth) {
+  return 1.0F / (1.0F + std::exp(-truth.cloud.opacity_logits[truth.row]));
+}
+
 float alpha_difference(const TrueRow& truth, const map::Channels& held) {
-  const float alpha = 1.0F / (1.0F + std::exp(-truth.cloud.opacity_logits[truth.row]));
-  return std::abs(alpha - map::decode_alpha(held[map::kOpacityAt]));
+  return std::abs(alpha_of(truth) - map::decode_alpha(held[map::kOpacityAt]));
 }
 
 float log_scale_difference(const TrueRow& truth, const map::Channels& held) {
@@ -103,12 +106,10 @@ void set_back(const HeldRow& held, map::FieldMask fields, map::QuantisedRows& no
 
 }  // namespace
 
-RowChange settle_change(const TrueRow& truth, const HeldRow& held, float tolerance, map::QuantisedRows& now) {
-  const map::ChunkId chunk = held.rows.chunks[held.row];
+RowChange measure_change(const TrueRow& truth, const HeldRow& held, float tolerance) {
   const map::Channels& before = held.rows.channels[held.row];
-  map::append_quantised(truth.cloud, truth.row, chunk, now);
   const Size size = size_of(before);
-  const map::DecodedPose pose = map::decode_pose(chunk, before);
+  const map::DecodedPose pose = map::decode_pose(held.rows.chunks[held.row], before);
   RowChange change;
   float sum = 0.0F;
   const auto weigh = [&](Field field, float difference, float unseen) {
@@ -122,17 +123,22 @@ RowChange settle_change(const TrueRow& truth, const HeldRow& held, float toleran
   weigh(Field::kOpacity, alpha_difference(truth, before), kUnseenAlpha);
   weigh(Field::kColour, colour_difference(truth, before), kUnseenColour);
   weigh(Field::kSh, sh_difference(truth, held), kUnseenSh);
-  set_back(held, change.fields, now);
   if (truth.cloud.anchors[truth.row] != held.rows.anchors[held.row])
     weigh(Field::kAnchor, 2.0F * tolerance + 0.01F, 1.0F);
-  // What quantises to the same integers needs no telling.
-  if (now.channels.back() == before && !map::has(change.fields, Field::kSh) &&
-      !map::has(change.fields, Field::kAnchor))
-    change.fields = 0;
-  const float alpha = std::max(map::decode_alpha(now.channels.back()[map::kOpacityAt]),
-                               map::decode_alpha(before[map::kOpacityAt]));
+  if (change.fields == 0) return change;
+  const float alpha = std::max(alpha_of(truth), map::decode_alpha(before[map::kOpacityAt]));
   change.priority = sum * alpha * size.middle_m;
   return change;
+}
+
+bool append_settled(const TrueRow& truth, const HeldRow& held, map::FieldMask fields,
+                    map::QuantisedRows& now) {
+  map::append_quantised(truth.cloud, truth.row, held.rows.chunks[held.row], now);
+  set_back(held, fields, now);
+  const bool differs = now.channels.back() != held.rows.channels[held.row] || map::has(fields, Field::kSh) ||
+                       map::has(fields, Field::kAnchor);
+  if (!differs) now.resize(now.size() - 1);
+  return differs;
 }
 
 }  // namespace edgesplat::stream

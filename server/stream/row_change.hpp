@@ -23,11 +23,14 @@ struct HeldRow {
   std::size_t row;
 };
 
-/// Compares a Gaussian with what the robot holds of it. `now` ends with the same Gaussian, quantised in the
-/// held one's chunk: fields that differ by no more than `tolerance` times what nobody sees (a twentieth of
-/// the smallest axis, 5 % of a scale, a turn that moves the tips by a tenth of the smallest axis, 1/100 of
-/// opacity or colour, a step of SH) are set back to the held value there, and cost no bytes then.
-[[nodiscard]] RowChange settle_change(const TrueRow& truth, const HeldRow& held, float tolerance,
-                                      map::QuantisedRows& now);
+/// Compares a Gaussian with what the robot holds of it. Fields count as changed that differ by more than
+/// `tolerance` times what nobody sees: a twentieth of the smallest axis, 5 % of a scale, a turn that moves
+/// the tips by a tenth of the smallest axis, 1/100 of opacity or colour, a step of SH.
+[[nodiscard]] RowChange measure_change(const TrueRow& truth, const HeldRow& held, float tolerance);
+
+/// Appends the Gaussian to `now`, quantised in the held one's chunk, the fields that are not in `fields` as
+/// held: they cost no bytes then. False, and nothing is appended, where that is what the robot holds.
+bool append_settled(const TrueRow& truth, const HeldRow& held, map::FieldMask fields,
+                    map::QuantisedRows& now);
 
 }  // namespace edgesplat::stream

@@ -18,14 +18,8 @@ struct DeltaStream::Outbox {
 
 /// What became of the changed Gaussians.
 struct DeltaStream::Changes {
-  struct Update {
-    float priority;
-    map::FieldMask fields;
-    std::uint32_t row;  ///< of now
-  };
   std::vector<gaussian::GaussianId> left;  ///< moved into a chunk that the robot does not hold
   map::QuantisedRows added;                ///< new to the robot, or in another chunk than before
-  map::QuantisedRows now;                  ///< new records of what the robot holds
   std::vector<Update> updates;
 };
 
