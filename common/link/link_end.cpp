@@ -202,7 +202,6 @@ void LinkEnd::send_probe(map::RobotId robot, PeerLink& to, HostTime now) {
   header.message_crc32c = crc32c(padding);
   header.chunk_crc32c = chunk_crc32c(header, padding);
   ++probes_.messages_offered;
-  const bool first = bytes_on_the_way(robot, to, now) == 0;
   if (path_->write(Lane::kProbe, header, padding) != WriteOutcome::kWritten) {
     ++probes_.messages_dropped;
     return;
@@ -211,7 +210,8 @@ void LinkEnd::send_probe(map::RobotId robot, PeerLink& to, HostTime now) {
   ++probes_.chunks_sent;
   probes_.bytes_sent += padding.size();
   to.sent_single(Lane::kProbe, header.train, now);
-  to.estimator.on_sent(now, padding.size(), first, to.prober.more_follows());
+  // A train is one burst even where each packet arrives before the next leaves, and the sender holds it down.
+  to.estimator.on_sent(now, padding.size(), to.prober.begins_train(), false);
 }
 
 PeerLink* LinkEnd::peer(map::RobotId robot) {

@@ -31,6 +31,7 @@ void Prober::begin(const Situation& s, HostTime now) {
 
 bool Prober::due(const Situation& s, HostTime now) {
   next_.reset();
+  begins_train_ = left_ == 0;
   if (!s.allowed) {
     left_ = 0;
     return false;

@@ -36,7 +36,8 @@ class Prober {
   /// When due() may next be true by time alone; meaningful after due() returned false.
   [[nodiscard]] std::optional<HostTime> next_event() const { return next_; }
   [[nodiscard]] const ProbeConfig& config() const { return config_; }
-  [[nodiscard]] bool more_follows() const { return left_ > 0; }
+  /// The packet that due() just allowed begins a train.
+  [[nodiscard]] bool begins_train() const { return begins_train_; }
 
  private:
   [[nodiscard]] HostTime next_train(const Situation& situation) const;
@@ -44,6 +45,7 @@ class Prober {
 
   ProbeConfig config_;
   std::size_t left_ = 0;
+  bool begins_train_ = false;
   nanoseconds gap_{};
   nanoseconds pause_{};
   HostTime packet_at_{};

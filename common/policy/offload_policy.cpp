@@ -108,10 +108,13 @@ void OffloadPolicy::consider_upgrade(const Situation& s) {
   decision_.prune_and_compress = false;
 }
 
+bool OffloadPolicy::wants_offload(const Situation& s) const {
+  if (config_.setting == OffloadSetting::kNever) return false;
+  return decision_.mode != Mode::kLocal || load_trigger(s) != Reason::kNone;
+}
+
 bool OffloadPolicy::bandwidth_matters(const Situation& s) const {
-  if (config_.setting == OffloadSetting::kNever || decision_.mode == Mode::kFull || !server_alive(s))
-    return false;
-  return decision_.mode == Mode::kLean || load_trigger(s) != Reason::kNone;
+  return wants_offload(s) && decision_.mode != Mode::kFull && server_alive(s);
 }
 
 Decision OffloadPolicy::evaluate(const Situation& s) {

@@ -84,6 +84,8 @@ class OffloadPolicy {
 
   /// To be called every evaluation_period_s; calls that come sooner return the standing decision.
   [[nodiscard]] Decision evaluate(const Situation& situation);
+  /// Somebody else is to do the mapping, or does it, if only the link and the server allow it.
+  [[nodiscard]] bool wants_offload(const Situation& situation) const;
   /// A wider link could change the mode: the bandwidth is worth measuring.
   [[nodiscard]] bool bandwidth_matters(const Situation& situation) const;
 

@@ -78,6 +78,7 @@ OffloadRecord OffloadControl::evaluate() {
     record.bytes_up += lane.bytes_sent;
     record.bytes_down += lane.bytes_received;
   }
+  record.offload_wanted = policy_.wants_offload(s);
   record.bandwidth_matters = policy_.bandwidth_matters(s);
   last_ = record;
   return record;

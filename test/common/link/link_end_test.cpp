@@ -153,6 +153,14 @@ TEST(LinkEnd, ProbesAnIdleLinkOnlyWhereADecisionDependsOnIt) {
   EXPECT_FALSE(link.server().receive(nanoseconds(0)).has_value());  // nobody else sees them
 }
 
+TEST(LinkEnd, AProbeOfAWideLinkFindsAsMuchAsItWasPacedAt) {
+  SimulatedLink link;
+  link.robot().allow_probing(true);
+  link.run(1);
+  ASSERT_TRUE(link.robot().quality(kRobot).bandwidth_bytes_per_s.has_value());
+  EXPECT_GT(*link.robot().quality(kRobot).bandwidth_bytes_per_s, 1.25 * 300e3);
+}
+
 TEST(LinkEnd, HeartbeatsMeasureTheRoundTripAndOvertakeBulk) {
   SimulatedLink link(impaired(shaped({0.0}, {25e3})));
   for (std::uint32_t i = 0; i < 20; ++i) {

@@ -75,6 +75,7 @@ TEST(OffloadControl, StaysLocalWithHeadroom) {
   EXPECT_EQ(robot.mode(), Mode::kLocal);
   EXPECT_TRUE(robot.changes.empty());
   EXPECT_FALSE(robot.last.bandwidth_matters);
+  EXPECT_FALSE(robot.last.offload_wanted);
 }
 
 TEST(OffloadControl, LatencyAloneOffloads) {
