@@ -127,6 +127,9 @@ void LinkEnd::on_acks(const Message& message) {
     }
   }
   delivery.bytes_on_the_way = bytes_on_the_way(message.robot, *from, now);
+  // A train is not over between its packets: its beginning alone would measure what the network lets through
+  // at once.
+  if (from->prober.more_follows()) delivery.bytes_on_the_way += options_.probe.packet_bytes;
   if (delivery.came_ns != 0) from->estimator.on_delivery(delivery, now);
 }
 

@@ -36,6 +36,7 @@ class Prober {
   /// When due() may next be true by time alone; meaningful after due() returned false.
   [[nodiscard]] std::optional<HostTime> next_event() const { return next_; }
   [[nodiscard]] const ProbeConfig& config() const { return config_; }
+  [[nodiscard]] bool more_follows() const { return left_ > 0; }
   /// The packet that due() just allowed begins a train.
   [[nodiscard]] bool begins_train() const { return begins_train_; }
 

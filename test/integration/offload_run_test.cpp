@@ -70,6 +70,12 @@ TEST_F(OffloadRun, TheModeFollowsTheLink) {
   EXPECT_GT(counters("robot")["map.hash_agreed"].get<int>(), 0);
 }
 
+TEST_F(OffloadRun, MemoryAloneOffloads) {
+  const auto robot = run({"--offload", "auto", "--set", "offload.memory_threshold_bytes=3e7"}, {});
+  ASSERT_EQ(robot.exit_code, 0) << robot.err;
+  EXPECT_NE(robot.err.find("mode=FULL reason=memory"), std::string::npos) << robot.err;
+}
+
 TEST_F(OffloadRun, WithoutAServerTheRobotStaysLocal) {
   const std::string recording = shared_recording(
       "corridor6", {"--world", "corridor", "--seconds", "6", "--pedestrians", "2", "--seed", "3"});

@@ -153,6 +153,16 @@ TEST(LinkEnd, ProbesAnIdleLinkOnlyWhereADecisionDependsOnIt) {
   EXPECT_FALSE(link.server().receive(nanoseconds(0)).has_value());  // nobody else sees them
 }
 
+TEST(LinkEnd, AProbeIsNotFooledByTheBurstThatTheNetworkLetsThrough) {
+  ImpairmentConfig config = shaped({0.0}, {120e3});
+  config.delay_ms = 0;  // each packet of the burst is acknowledged before the next leaves
+  SimulatedLink link(impaired(config));
+  link.robot().allow_probing(true);
+  link.run(1);
+  ASSERT_TRUE(link.robot().quality(kRobot).bandwidth_bytes_per_s.has_value());
+  EXPECT_LT(*link.robot().quality(kRobot).bandwidth_bytes_per_s, 1.5 * 120e3);
+}
+
 TEST(LinkEnd, AProbeOfAWideLinkFindsAsMuchAsItWasPacedAt) {
   SimulatedLink link;
   link.robot().allow_probing(true);
