@@ -3,11 +3,19 @@
 #include "kernels/mapping/engine.hpp"
 
 #include "common/base/check.hpp"
+#include "kernels/splat/render.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <unordered_map>
 #include <utility>
 
 namespace edgesplat::mapping {
+namespace {
+
+constexpr float kMarkedSigmas = 2.0F;
+
+}  // namespace
 
 Result<std::unique_ptr<MappingEngine>> MappingEngine::create(const EngineOptions& options, IdAllocator& ids,
                                                              const Clock& clock) {
@@ -18,27 +26,67 @@ Result<std::unique_ptr<MappingEngine>> MappingEngine::create(const EngineOptions
 Result<std::size_t> MappingEngine::add(const map::Keyframe& keyframe,
                                        const geometry::RigidTransform& map_from_body,
                                        const sensor::ImageRgb8* picture) {
-  EDGESPLAT_TRY(const std::size_t added, seed(keyframe, map_from_body));
-  if (picture == nullptr || !keyframe.camera) return added;
-  EDGESPLAT_TRY(StoredView view,
-                make_view(keyframe, map_from_body, *picture, undistorter_of(keyframe.camera->model)));
-  views_.add(std::move(view));
-  steps_since_view_ = 0;
-  return added;
-}
-
-Result<std::size_t> MappingEngine::seed(const map::Keyframe& keyframe,
-                                        const geometry::RigidTransform& map_from_body) {
   SeedInput input;
   input.points_in_body = keyframe.points_in_body;
   input.map_from_body = map_from_body;
   input.anchor = {keyframe.id.value, keyframe.pose_version};
   input.has_camera = keyframe.camera.has_value();
+  EDGESPLAT_TRY(std::size_t added, seed(input));
+  if (picture == nullptr || !keyframe.camera) return added;
+  EDGESPLAT_TRY(StoredView view,
+                make_view(keyframe, map_from_body, *picture, undistorter_of(keyframe.camera->model)));
+  if (options_.seen_through.enabled) EDGESPLAT_TRY_STATUS(forget_what_is_gone(view));
+  if (options_.fill.enabled) {
+    EDGESPLAT_TRY(const std::size_t filled, fill(view, input));
+    added += filled;
+  }
+  views_.add(std::move(view));
+  steps_since_view_ = 0;
+  return added;
+}
+
+Result<std::size_t> MappingEngine::seed(const SeedInput& input) {
   const gaussian::GaussianCloud seeded = seeder_.seed(input);
   if (options_.keep_seeds) {
     for (std::size_t row = 0; row < seeded.size(); ++row) seeds_.append_row(seeded, row);
   }
   return optimiser_.add_rows(seeded);
+}
+
+Status MappingEngine::forget_what_is_gone(const StoredView& view) {
+  const std::vector<std::uint32_t> rows = seen_through_.take(view, cloud());
+  std::unordered_map<std::uint32_t, StoredView*> by_keyframe;
+  for (StoredView& old : views_.views()) by_keyframe[old.keyframe.value] = &old;
+  for (const std::uint32_t row : rows) {
+    removed_.push_back(cloud().ids[row]);
+    const auto showed_it = by_keyframe.find(cloud().anchors[row].keyframe);
+    if (showed_it == by_keyframe.end()) continue;
+    const float* log_scales = &cloud().log_scales[3 * std::size_t{row}];
+    const float sigma_m = std::exp(std::max({log_scales[0], log_scales[1], log_scales[2]}));
+    const float* mean = &cloud().means_m[3 * std::size_t{row}];
+    mark_moving({mean[0], mean[1], mean[2]}, kMarkedSigmas * sigma_m, *showed_it->second);
+  }
+  gone_ += rows.size();
+  return optimiser_.remove_rows(rows);
+}
+
+Result<std::size_t> MappingEngine::fill(const StoredView& view, const SeedInput& seeded) {
+  const auto ground = find_ground(seeded.points_in_body, seeded.map_from_body, options_.fill.ground);
+  if (ground) ground_ = ground;
+  if (!ground_) return std::size_t{0};
+  EDGESPLAT_TRY(const splat::View drawn_from,
+                splat::View::from(view.camera(), view.map_from_camera.inverse()));
+  const std::size_t pixels = view.undistorter->seen().size();
+  colour_.resize(3 * pixels);
+  depth_m_.resize(pixels);
+  std::vector<float> alpha(pixels);
+  EDGESPLAT_TRY(const splat::RenderStats stats, splat::render(core::Backend::kCpu, splat::spans_of(cloud()),
+                                                              drawn_from, {}, {colour_, depth_m_, alpha}));
+  (void)stats;
+  const auto points = fill_holes(view, seeded.map_from_body, *ground_, alpha, options_.fill);
+  SeedInput holes = seeded;
+  holes.points_in_body = points;
+  return seed(holes);
 }
 
 std::shared_ptr<const image::Undistorter> MappingEngine::undistorter_of(const geometry::CameraModel& camera) {
@@ -67,6 +115,13 @@ TrainingView MappingEngine::prepare(const StoredView& view) {
   training.colour = colour_;
   training.depth_m = depth_m_;
   training.weight = view.undistorter->seen();
+  if (!view.moving.empty()) {
+    weight_.assign(training.weight.begin(), training.weight.end());
+    for (std::size_t pixel = 0; pixel < weight_.size(); ++pixel) {
+      if (view.moving[pixel]) weight_[pixel] = 0.0F;
+    }
+    training.weight = weight_;
+  }
   if (!view.exposure_known) training.exposure_key = view.keyframe.value;
   return training;
 }

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "kernels/mapping/densify.hpp"
+#include "kernels/mapping/hole_fill.hpp"
 #include "kernels/mapping/optimiser.hpp"
 #include "kernels/mapping/seed.hpp"
+#include "kernels/mapping/seen_through.hpp"
 #include "kernels/mapping/view_pool.hpp"
 
 #include <cstddef>
@@ -15,12 +17,30 @@
 
 namespace edgesplat::mapping {
 
+/// A live map gets some ten steps a view, not hundreds: larger ones pay (measured with map_quality).
+[[nodiscard]] inline OptimiserOptions live_optimiser() {
+  OptimiserOptions options;
+  options.rates.mean_m = 1e-3F;
+  options.rates.log_scale = 2e-2F;
+  options.rates.sh_base = 2e-2F;
+  return options;
+}
+
+/// The LiDAR seeds densely; growing early only spends the steps there are (18.3 dB against 19.8 dB).
+[[nodiscard]] inline DensifyOptions prune_only() {
+  DensifyOptions options;
+  options.gradient = 1e-2F;
+  return options;
+}
+
 struct EngineOptions {
   SeedOptions seed;
-  OptimiserOptions optimiser;
+  HoleFillOptions fill;
+  SeenThroughOptions seen_through;
+  OptimiserOptions optimiser = live_optimiser();
   ViewPoolOptions views;
-  DensifyOptions densify;
-  int densify_every = 200;  ///< steps, 0 (never)..100000
+  DensifyOptions densify = prune_only();
+  int densify_every = 100;  ///< steps, 0 (never)..100000
   int steps_per_view =
       300;  ///< after so many a view on average, a map that gets no new one is at rest, 1..1000000
   bool keep_seeds = false;  ///< keep the map as it was seeded, to compare with
@@ -58,6 +78,8 @@ class MappingEngine {
   [[nodiscard]] const SeedStats& seed_stats() const { return seeder_.stats(); }
   [[nodiscard]] const ViewPool& views() const { return views_; }
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  /// Gaussians removed because something was measured behind them.
+  [[nodiscard]] std::uint64_t gone() const { return gone_; }
 
  private:
   MappingEngine(const EngineOptions& options, IdAllocator& ids, Optimiser optimiser)
@@ -66,7 +88,11 @@ class MappingEngine {
         seeder_(options.seed, ids),
         optimiser_(std::move(optimiser)),
         views_(options.views) {}
-  Result<std::size_t> seed(const map::Keyframe& keyframe, const geometry::RigidTransform& map_from_body);
+  Result<std::size_t> seed(const SeedInput& input);
+  /// Where the new view is still empty.
+  /// What the view's LiDAR looks through goes, and its pixels in the pictures that showed it.
+  Status forget_what_is_gone(const StoredView& view);
+  Result<std::size_t> fill(const StoredView& view, const SeedInput& seeded);
   [[nodiscard]] std::shared_ptr<const image::Undistorter> undistorter_of(const geometry::CameraModel& camera);
   [[nodiscard]] TrainingView prepare(const StoredView& view);
 
@@ -75,14 +101,17 @@ class MappingEngine {
   MapSeeder seeder_;
   Optimiser optimiser_;
   ViewPool views_;
+  SeenThrough seen_through_{options_.seen_through};
   gaussian::GaussianCloud seeds_;
+  std::optional<GroundPlane> ground_;            ///< as found last
   std::optional<geometry::CameraModel> camera_;  ///< that undistorter_ is for
   std::shared_ptr<const image::Undistorter> undistorter_;
   ChangeMark taken_ = 0;
   std::vector<gaussian::GaussianId> removed_;
   std::uint64_t steps_ = 0;
   std::uint64_t steps_since_view_ = 0;
-  std::vector<float> colour_, depth_m_;  ///< of the view in training
+  std::uint64_t gone_ = 0;
+  std::vector<float> colour_, depth_m_, weight_;  ///< of the view in training
 };
 
 }  // namespace edgesplat::mapping

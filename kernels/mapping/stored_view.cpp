@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/mapping/stored_view.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -9,6 +11,8 @@ namespace edgesplat::mapping {
 namespace {
 
 constexpr float kNearest_m = 0.1F;
+constexpr double kLeastMark_px = 2.0;
+constexpr double kMostMark_px = 24.0;
 
 }  // namespace
 
@@ -37,6 +41,27 @@ std::vector<SparseDepth> project_depths(std::span<const map::ColouredPoint> poin
     if (nearest[pixel] > 0.0F) depths.push_back({static_cast<std::uint32_t>(pixel), nearest[pixel]});
   }
   return depths;
+}
+
+void mark_moving(const Eigen::Vector3f& p_in_map_m, float radius_m, StoredView& view) {
+  const geometry::CameraModel& camera = view.camera();
+  const Eigen::Vector3d p = view.map_from_camera.inverse() * p_in_map_m.cast<double>();
+  if (!(p.z() > static_cast<double>(kNearest_m))) return;
+  const double u = camera.fx_px * p.x() / p.z() + camera.cx_px;
+  const double v = camera.fy_px * p.y() / p.z() + camera.cy_px;
+  const double reach_px =
+      std::clamp(static_cast<double>(radius_m) * camera.fx_px / p.z(), kLeastMark_px, kMostMark_px);
+  if (!(u > -reach_px && v > -reach_px && u < camera.width_px + reach_px && v < camera.height_px + reach_px))
+    return;
+  const auto from = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach_px))); };
+  const auto to = [&](double at, int size) { return std::min(size - 1, static_cast<int>(at + reach_px)); };
+  if (view.moving.empty()) view.moving.resize(view.picture.values.size() / 3, false);
+  for (int y = from(v); y <= to(v, camera.height_px); ++y) {
+    for (int x = from(u); x <= to(u, camera.width_px); ++x) {
+      view.moving[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
+                  static_cast<std::size_t>(x)] = true;
+    }
+  }
 }
 
 Result<StoredView> make_view(const map::Keyframe& keyframe, const geometry::RigidTransform& map_from_body,

@@ -30,6 +30,7 @@ struct StoredView {
   std::shared_ptr<const image::Undistorter> undistorter;  ///< shared by all views of one camera
   sensor::ImageRgb8 picture;
   bool exposure_known = false;      ///< the picture has the brightness of all others
+  std::vector<bool> moving;         ///< [H,W] pixels that showed what is gone now; empty: none
   std::vector<SparseDepth> depths;  ///< in the order of the pixels, one a pixel: the nearest
 
   [[nodiscard]] const geometry::CameraModel& camera() const { return undistorter->model(); }
@@ -42,6 +43,9 @@ struct StoredView {
 [[nodiscard]] std::vector<SparseDepth> project_depths(std::span<const map::ColouredPoint> points_in_body,
                                                       const geometry::RigidTransform& camera_from_body,
                                                       const geometry::CameraModel& pinhole);
+
+/// Notes that the pixels around a point of the map showed something that moved: not to be trained on.
+void mark_moving(const Eigen::Vector3f& p_in_map_m, float radius_m, StoredView& view);
 
 /// `picture`: the keyframe's, decoded, of the camera's size, else kInvalidArgument. The keyframe must have a
 /// camera.

@@ -33,6 +33,10 @@ void describe_optimise(ConfigReader& reader, OptimiseConfig& optimise) {
   reader.field("steps_per_view", engine.steps_per_view, Range{1, 1'000'000},
                "a map without new views rests after so many steps a view");
   reader.field("keep_seeds", engine.keep_seeds, "also keep maps as they were seeded, to compare with");
+  reader.field("fill_holes", engine.fill.enabled,
+               "seed the floor and feet of walls where only the camera looks");
+  reader.field("forget_seen_through", engine.seen_through.enabled,
+               "remove what the LiDAR measures something behind");
   reader.field("max_view_bytes", engine.views.max_bytes, Range<std::size_t>{1'000'000, std::size_t{1} << 40U},
                "memory for the pictures to train on");
   reader.field("recent_views", engine.views.recent, Range<std::size_t>{0, 1000},

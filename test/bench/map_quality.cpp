@@ -67,12 +67,14 @@ Status run(int argc, char** argv) {
   EDGESPLAT_TRY_STATUS(io::write_gaussians_ply(out / "server" / "seeded.ply", builder->engine().seeds()));
   EDGESPLAT_TRY(const nlohmann::json scores, desk::score_run({out, argv[1], 24}));
   std::printf(
-      "%llu steps, %.1f ms each, %zu Gaussians (%zu seeded): PSNR %.2f dB, SSIM %.3f, seeded %.2f dB, "
+      "%llu steps, %.1f ms each, %zu Gaussians (%zu seeded, %llu gone): PSNR %.2f dB, SSIM %.3f, seeded %.2f "
+      "dB, "
       "nearest %.2f dB\n",
       static_cast<unsigned long long>(steps),
       std::chrono::duration<double, std::milli>(in_steps).count() /
           static_cast<double>(std::max<std::uint64_t>(steps, 1)),
-      cloud.size(), builder->engine().seeds().size(), scores["psnr_db"].get<double>(),
+      cloud.size(), builder->engine().seeds().size(),
+      static_cast<unsigned long long>(builder->engine().gone()), scores["psnr_db"].get<double>(),
       scores["ssim"].get<double>(), scores["psnr_seeded_db"].get<double>(),
       scores["psnr_nearest_db"].get<double>());
   return {};

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/mapping/hole_fill.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+namespace edgesplat::mapping {
+namespace {
+
+constexpr int kColumn_px = 4;  ///< LiDAR points are sparse: columns are taken together so far
+
+/// The depth measured last, going down each column: what an upright surface goes on with.
+class DepthAbove {
+ public:
+  explicit DepthAbove(const StoredView& view)
+      : view_(view), depth_m_(static_cast<std::size_t>(view.camera().width_px / kColumn_px + 1), 0.0F) {}
+
+  /// Takes the measured pixels of all rows up to this one; rows must not go back.
+  void go_down_to(int row) {
+    const auto width = static_cast<std::uint32_t>(view_.camera().width_px);
+    const std::uint32_t end = (static_cast<std::uint32_t>(row) + 1) * width;
+    for (; next_ < view_.depths.size() && view_.depths[next_].pixel < end; ++next_) {
+      const SparseDepth& d = view_.depths[next_];
+      depth_m_[d.pixel % width / kColumn_px] = d.depth_m;
+    }
+  }
+  [[nodiscard]] float at(int x) const {
+    const float d = depth_m_[static_cast<std::size_t>(x / kColumn_px)];
+    return d > 0.0F ? d : std::numeric_limits<float>::infinity();
+  }
+
+ private:
+  const StoredView& view_;
+  std::vector<float> depth_m_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::vector<map::ColouredPoint> fill_holes(const StoredView& view,
+                                           const geometry::RigidTransform& map_from_body,
+                                           const GroundPlane& ground, std::span<const float> alpha,
+                                           const HoleFillOptions& options) {
+  const geometry::CameraModel& camera = view.camera();
+  const Eigen::Vector3f normal_in_camera =
+      (view.map_from_camera.rotation.conjugate() * ground.normal).cast<float>();
+  // How far over the floor the camera is.
+  const auto height_m =
+      static_cast<float>(ground.normal.dot(view.map_from_camera.translation_m) - ground.offset_m);
+  std::vector<map::ColouredPoint> points;
+  if (!(height_m > 0.0F)) return points;
+  const geometry::RigidTransform body_from_camera = map_from_body.inverse() * view.map_from_camera;
+  const Eigen::Matrix3f rotation = body_from_camera.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f translation = body_from_camera.translation_m.cast<float>();
+  DepthAbove above(view);
+  for (int y = 0; y < camera.height_px; y += options.stride_px) {
+    above.go_down_to(y);
+    for (int x = 0; x < camera.width_px; x += options.stride_px) {
+      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
+                         static_cast<std::size_t>(x);
+      if (alpha[pixel] > options.max_alpha || view.undistorter->seen()[pixel] == 0.0F) continue;
+      const Eigen::Vector3f ray(static_cast<float>((x - camera.cx_px) / camera.fx_px),
+                                static_cast<float>((y - camera.cy_px) / camera.fy_px), 1.0F);
+      const float fall = -normal_in_camera.dot(ray);  // towards the floor, a metre of depth
+      if (!(fall > 0.0F)) continue;
+      const float floor_m = height_m / fall;
+      const float depth_m = std::min(floor_m, above.at(x));
+      if (depth_m > options.max_depth_m) continue;
+      map::ColouredPoint point;
+      point.p_in_body_m = rotation * (depth_m * ray) + translation;
+      const std::uint8_t* rgb = view.picture.pixel(x, y);
+      std::copy(rgb, rgb + 3, point.rgb.begin());
+      point.has_colour = true;
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+}  // namespace edgesplat::mapping
