@@ -29,6 +29,7 @@ Result<Report> write_report(const ReportOptions& options) {
   body += held_out_section(run, options.max_keyframes);
   body += camera_section(pictures);
   body += timing_section(run);
+  body += modes_section(run, report.summary.link);
   body += losses_section(run);
   body += settings_section(run);
   const std::string title = "edgesplat run " + std::filesystem::absolute(options.run).filename().string();

@@ -50,6 +50,16 @@ std::vector<KeyframeFiles> find_keyframes(const std::filesystem::path& robot) {
   return keyframes;
 }
 
+/// A run without a server has none: that is said in its section.
+ModeTimeline modes_of(const std::filesystem::path& path, std::vector<std::string>& missing) {
+  if (existing(path).empty()) return {};
+  ModeTimeline modes = parse_mode_timeline(text_of(path, missing), "modes.jsonl");
+  if (modes.skipped > 0) {
+    missing.push_back(std::to_string(modes.skipped) + " lines of modes.jsonl, first " + modes.first_skipped);
+  }
+  return modes;
+}
+
 /// In the run's folder, or in the robot's where it wrote its own copy.
 std::string toml_of(const std::filesystem::path& folder, const char* name,
                     std::vector<std::string>& missing) {
@@ -80,6 +90,7 @@ Result<RunFolder> read_run_folder(const std::filesystem::path& folder) {
   if (!existing(folder / "stream.json").empty()) run.stream = json_of(folder / "stream.json", run.missing);
   if (!existing(folder / "heldout.json").empty())
     run.held_out = json_of(folder / "heldout.json", run.missing);
+  run.modes = modes_of(robot / "modes.jsonl", run.missing);
   run.keyframes = find_keyframes(robot);
   if (run.keyframes.empty()) run.missing.push_back("no camera pictures in " + (robot / "keyframes").string());
   if (auto points = io::read_points_ply(robot / "points.ply")) {

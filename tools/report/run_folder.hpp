@@ -5,6 +5,7 @@
 #include "common/io/ply_points.hpp"
 #include "common/io/trajectory_file.hpp"
 #include "tools/report/csv_table.hpp"
+#include "tools/report/mode_timeline.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -33,6 +34,7 @@ struct RunFolder {
   nlohmann::json server_metrics;  ///< null where absent
   nlohmann::json stream;          ///< what the simulated sensors said, live runs only
   nlohmann::json held_out;        ///< what `edgesplat score` found, null where it did not run
+  ModeTimeline modes;             ///< without samples where the robot decided nothing
   std::vector<KeyframeFiles> keyframes;
   std::optional<io::PointCloud> points;
   std::string rig_toml;

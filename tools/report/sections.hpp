@@ -34,6 +34,8 @@ struct KeyframePictures {
 
 /// Stage times: table of percentiles, curves over time; points and poses a second.
 [[nodiscard]] std::string timing_section(const RunFolder& run);
+/// LOCAL, LEAN and FULL over time with what decided it: latency, memory, bandwidth; bytes; the maps' hashes.
+[[nodiscard]] std::string modes_section(const RunFolder& run, const LinkFigures& link);
 /// Every counter of something lost, late, refused or dropped.
 [[nodiscard]] std::string losses_section(const RunFolder& run);
 /// Configuration, rig, all metrics, and what this report lacks.

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/report/summary.hpp"
 
-#include <fmt/format.h>
+#include "tools/report/run_metrics.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -51,18 +52,8 @@ std::optional<double> packets_lost(const nlohmann::json& metrics) {
   return sum;
 }
 
-std::string text_or_dash(const std::optional<double>& value, const char* unit, int decimals) {
-  if (!value) return "-";
-  return fmt::format("{:.{}f}", *value, decimals) + (*unit == '\0' ? "" : " ") + unit;
-}
-
 nlohmann::json or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json(nullptr);
-}
-
-std::optional<double> number_of(const nlohmann::json& json, const char* key) {
-  if (!json.is_object() || !json.contains(key) || !json[key].is_number()) return std::nullopt;
-  return json[key].get<double>();
 }
 
 void read_held_out(const nlohmann::json& held_out, Summary& s) {
@@ -73,25 +64,7 @@ void read_held_out(const nlohmann::json& held_out, Summary& s) {
   s.psnr_nearest_db = number_of(held_out, "psnr_nearest_db");
 }
 
-std::optional<double> histogram_ms(const nlohmann::json& metrics, const char* name, const char* percentile) {
-  if (!metrics.is_object() || !metrics.contains("histograms") || !metrics["histograms"].contains(name)) {
-    return std::nullopt;
-  }
-  return number_of(metrics["histograms"][name], percentile);
-}
-
 }  // namespace
-
-std::optional<double> find_metric(const nlohmann::json& metrics, const std::vector<std::string>& names) {
-  if (!metrics.is_object()) return std::nullopt;
-  for (const std::string& name : names) {
-    for (const char* kind : {"counters", "gauges"}) {
-      if (!metrics.contains(kind) || !metrics[kind].contains(name)) continue;
-      if (metrics[kind][name].is_number()) return metrics[kind][name].get<double>();
-    }
-  }
-  return std::nullopt;
-}
 
 std::optional<double> percentile(std::vector<double> values, double fraction) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
@@ -124,12 +97,13 @@ Summary summarise(const RunFolder& run, const std::vector<Reference>& references
   s.bytes_down = find_metric(run.robot_metrics, {"link.bytes_down"});
   s.robot_peak_rss_mb = peak_rss_mb(run.robot_metrics);
   s.server_peak_rss_mb = peak_rss_mb(run.server_metrics);
+  s.link = link_figures(run);
   read_held_out(run.held_out, s);
-  if (const auto median = histogram_ms(run.robot_metrics, "render.frame_ms", "p50");
+  if (const auto median = find_histogram(run.robot_metrics, "render.frame_ms", "p50");
       median && *median > 0.0) {
     s.render_fps_p50 = 1e3 / *median;
   }
-  s.render_ms_p95 = histogram_ms(run.robot_metrics, "render.frame_ms", "p95");
+  s.render_ms_p95 = find_histogram(run.robot_metrics, "render.frame_ms", "p95");
   if (!qualities.empty()) {
     RenderQuality sum;
     for (const RenderQuality& quality : qualities) {
@@ -169,6 +143,7 @@ nlohmann::json to_json(const Summary& s, const std::vector<Reference>& reference
                          {"render_psnr_db", or_null(s.render_psnr_db)},
                          {"render_coverage", or_null(s.render_coverage)},
                          {"references", nlohmann::json::array()}};
+  add_to_json(s.link, json);
   for (const Reference& reference : references) {
     const accuracy::Evaluation& e = reference.evaluation;
     json["references"].push_back({{"name", reference.name},
@@ -181,38 +156,6 @@ nlohmann::json to_json(const Summary& s, const std::vector<Reference>& reference
                                   {"ete_percent", e.end_to_end.percent_of_path}});
   }
   return json;
-}
-
-std::vector<SummaryRow> summary_rows(const Summary& s) {
-  const auto megabytes = [](const std::optional<double>& bytes) {
-    return bytes ? std::optional<double>(*bytes / kBytesPerMb) : std::nullopt;
-  };
-  std::string track = text_or_dash(s.track_ms_p50, "ms median", 1);
-  if (s.track_ms_p95) track += fmt::format(", {:.1f} ms p95", *s.track_ms_p95);
-  std::string end_to_end = text_or_dash(s.ete_m, "m", 3);
-  if (s.ete_percent) end_to_end += fmt::format(" ({:.2f} % of the path)", *s.ete_percent);
-  std::string quality = text_or_dash(s.render_psnr_db, "dB", 1);
-  if (s.render_coverage) quality += fmt::format(" over {:.0f} % of the picture", 100.0 * *s.render_coverage);
-  std::string held_out = text_or_dash(s.psnr_db, "dB", 1);
-  if (s.psnr_seeded_db) held_out += fmt::format(", {:.1f} before optimising", *s.psnr_seeded_db);
-  if (s.psnr_nearest_db) held_out += fmt::format(", nearest keyframe {:.1f}", *s.psnr_nearest_db);
-  return {
-      {"Run", fmt::format("{:.1f} s, {} poses, {}", s.duration_s, s.poses, text_or_dash(s.path_m, "m", 1))},
-      {"Trajectory error (ATE rmse)", text_or_dash(s.ate_rmse_m, "m", 3)},
-      {"Error at the end (ETE)", end_to_end},
-      {"Tracking time per group", track},
-      {"Real-time factor", text_or_dash(s.realtime_factor, "x", 1)},
-      {"Packets lost", text_or_dash(s.packets_lost, "", 0)},
-      {"Keyframes", text_or_dash(s.keyframes, "", 0)},
-      {"Gaussians on the robot", text_or_dash(s.gaussians, "", 0)},
-      {"Map between keyframes (PSNR)", held_out},
-      {"Render beside camera (PSNR)", quality},
-      {"Render time", text_or_dash(s.render_fps_p50, "pictures/s median", 0) +
-                          (s.render_ms_p95 ? fmt::format(", {:.1f} ms p95", *s.render_ms_p95) : "")},
-      {"Sent up / down",
-       text_or_dash(megabytes(s.bytes_up), "MB", 1) + " / " + text_or_dash(megabytes(s.bytes_down), "MB", 1)},
-      {"Peak memory robot / server",
-       text_or_dash(s.robot_peak_rss_mb, "MB", 0) + " / " + text_or_dash(s.server_peak_rss_mb, "MB", 0)}};
 }
 
 }  // namespace edgesplat::report

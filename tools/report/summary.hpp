@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tools/report/link_figures.hpp"
 #include "tools/report/picture_embed.hpp"
 #include "tools/report/references.hpp"
 #include "tools/report/run_folder.hpp"
@@ -31,6 +32,7 @@ struct Summary {
   std::optional<double> keyframes;
   std::optional<double> bytes_up;
   std::optional<double> bytes_down;
+  LinkFigures link;
   std::optional<double> robot_peak_rss_mb;
   std::optional<double> server_peak_rss_mb;
   std::optional<double> psnr_db;          ///< the map from places between keyframes against the clean world
@@ -57,10 +59,6 @@ struct SummaryRow {
   std::string value;  ///< with its unit, "-" for nothing
 };
 [[nodiscard]] std::vector<SummaryRow> summary_rows(const Summary& summary);
-
-/// counters[name] or gauges[name] of a metrics.json, the first of `names` that is there.
-[[nodiscard]] std::optional<double> find_metric(const nlohmann::json& metrics,
-                                                const std::vector<std::string>& names);
 
 /// The value below which `fraction` of the finite values lie (nearest rank); nothing for none.
 [[nodiscard]] std::optional<double> percentile(std::vector<double> values, double fraction);

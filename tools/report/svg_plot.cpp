@@ -18,6 +18,7 @@ constexpr double kCharacterWidth = 6.9;  // of the page's 12 px font, on average
 constexpr double kLegendLine = 17.0;
 constexpr double kBelowFrame = 40.0;  // for the numbers and the name of the x axis
 constexpr double kLowestFrame = 130.0;
+constexpr double kBandOpacity = 0.25;
 
 /// Where the curves go inside the picture, and from which data range.
 struct Frame {
@@ -46,25 +47,58 @@ void equalise(Frame& frame) {
   frame.y = widened(frame.y, units_per_px * frame.height());
 }
 
+/// What stands in the legend: the curves, then each name of a band.
+struct LegendEntry {
+  enum class Mark { kLine, kDot, kBand };
+  std::string name;
+  std::string colour;
+  Mark mark;
+};
+
+std::vector<LegendEntry> legend_of(const Plot& plot) {
+  std::vector<LegendEntry> entries;
+  for (const Series& series : plot.series) {
+    const bool line = series.style == Series::Style::kLine;
+    entries.push_back(
+        {series.name, series.colour, line ? LegendEntry::Mark::kLine : LegendEntry::Mark::kDot});
+  }
+  const auto first_band = static_cast<std::ptrdiff_t>(entries.size());
+  for (const Band& band : plot.bands) {
+    const bool known = std::any_of(entries.begin() + first_band, entries.end(),
+                                   [&](const LegendEntry& entry) { return entry.name == band.name; });
+    if (!band.name.empty() && !known) entries.push_back({band.name, band.colour, LegendEntry::Mark::kBand});
+  }
+  return entries;
+}
+
+std::string legend_mark(const LegendEntry& entry, double x, double y) {
+  switch (entry.mark) {
+    case LegendEntry::Mark::kLine:
+      return fmt::format(
+          R"(<line x1="{:.0f}" y1="{:.0f}" x2="{:.0f}" y2="{:.0f}" stroke="{}" stroke-width="3"/>)", x, y - 4,
+          x + 14, y - 4, entry.colour);
+    case LegendEntry::Mark::kDot:
+      return fmt::format(R"(<circle cx="{:.0f}" cy="{:.0f}" r="3.5" fill="{}"/>)", x + 7, y - 4,
+                         entry.colour);
+    case LegendEntry::Mark::kBand:
+      break;
+  }
+  return fmt::format(R"(<rect x="{:.0f}" y="{:.0f}" width="14" height="10" fill="{}" fill-opacity="{}"/>)", x,
+                     y - 9, entry.colour, kBandOpacity);
+}
+
 /// Legend entries flow left to right below the title; returns its height.
-double draw_legend(const Plot& plot, std::string& svg) {
+double draw_legend(const std::vector<LegendEntry>& entries, int plot_width, std::string& svg) {
   double x = 58.0;
   double y = 34.0;
-  for (const Series& series : plot.series) {
-    const double width = 34.0 + kCharacterWidth * static_cast<double>(series.name.size());
-    if (x > 58.0 && x + width > plot.width) {
+  for (const LegendEntry& entry : entries) {
+    const double width = 34.0 + kCharacterWidth * static_cast<double>(entry.name.size());
+    if (x > 58.0 && x + width > plot_width) {
       x = 58.0;
       y += kLegendLine;
     }
-    if (series.style == Series::Style::kLine) {
-      svg += fmt::format(
-          R"(<line x1="{:.0f}" y1="{:.0f}" x2="{:.0f}" y2="{:.0f}" stroke="{}" stroke-width="3"/>)", x, y - 4,
-          x + 14, y - 4, series.colour);
-    } else {
-      svg +=
-          fmt::format(R"(<circle cx="{:.0f}" cy="{:.0f}" r="3.5" fill="{}"/>)", x + 7, y - 4, series.colour);
-    }
-    svg += fmt::format(R"(<text x="{:.0f}" y="{:.0f}">{}</text>)", x + 19, y, escape_html(series.name));
+    svg += legend_mark(entry, x, y);
+    svg += fmt::format(R"(<text x="{:.0f}" y="{:.0f}">{}</text>)", x + 19, y, escape_html(entry.name));
     x += width;
   }
   return y;
@@ -90,6 +124,9 @@ DataRanges ranges_of(const Plot& plot) {
     xs.push_back(&backdrop_x);
     ys.push_back(&backdrop_y);
   }
+  std::vector<double> band_x;
+  for (const Band& band : plot.bands) band_x.insert(band_x.end(), {band.x_min, band.x_max});
+  if (!band_x.empty()) xs.push_back(&band_x);
   return {range_of(xs, false), range_of(ys, plot.include_zero)};
 }
 
@@ -141,6 +178,15 @@ void draw_backdrop(const Backdrop& b, const Frame& f, std::string& svg) {
       f.px(b.x_min), f.py(b.y_max), f.px(b.x_max) - f.px(b.x_min), f.py(b.y_min) - f.py(b.y_max), b.data_uri);
 }
 
+void draw_bands(const Plot& plot, const Frame& f, std::string& svg) {
+  for (const Band& band : plot.bands) {
+    if (!std::isfinite(band.x_min) || !std::isfinite(band.x_max) || band.x_max < band.x_min) continue;
+    svg += fmt::format(
+        R"(<rect class="band" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}" fill-opacity="{}"/>)",
+        f.px(band.x_min), f.top, f.px(band.x_max) - f.px(band.x_min), f.height(), band.colour, kBandOpacity);
+  }
+}
+
 void draw_line(const Series& series, const Frame& f, std::string& svg) {
   std::string path;
   bool pen_down = false;
@@ -168,8 +214,10 @@ void draw_dots(const Series& series, const Frame& f, std::string& svg) {
 
 std::string draw(const Plot& plot) {
   std::string body;
-  const double legend_bottom = plot.series.empty() ? 18.0 : draw_legend(plot, body);
+  const std::vector<LegendEntry> legend = legend_of(plot);
+  const double legend_bottom = legend.empty() ? 18.0 : draw_legend(legend, plot.width, body);
   const Frame frame = lay_out(plot, legend_bottom);
+  draw_bands(plot, frame, body);
   draw_axes(plot, frame, body);
   if (plot.backdrop) draw_backdrop(*plot.backdrop, frame, body);
   for (const Series& series : plot.series) {

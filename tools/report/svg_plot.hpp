@@ -28,12 +28,22 @@ struct Backdrop {
   double y_max = 0.0;
 };
 
+/// A coloured stretch of the x axis, as high as the plot, under the curves. Those with a name get a place in
+/// the legend, each name once.
+struct Band {
+  std::string name;
+  std::string colour;
+  double x_min = 0.0;
+  double x_max = 0.0;
+};
+
 struct Plot {
   std::string title;
   std::string x_label;  ///< with the unit
   std::string y_label;
   std::vector<Series> series;
   std::optional<Backdrop> backdrop = std::nullopt;
+  std::vector<Band> bands = {};
   bool equal_scales =
       false;  ///< one metre is as long on both axes; `height` is then the most that may be used
   bool include_zero = false;  ///< the y axis starts at or passes through 0

@@ -102,9 +102,29 @@ Status write_pictures(const std::filesystem::path& folder) {
   return {};
 }
 
+/// 4 s LOCAL, 10 s FULL at 200 kB/s up, 6 s LEAN at 40 kB/s up; 90 kB/s down all the time.
+Status write_modes(const std::filesystem::path& folder) {
+  std::string text;
+  double bytes_up = 0.0;
+  for (int i = 0; i <= 40; ++i) {
+    const double t_s = 0.5 * i;
+    const bool full = t_s >= 4.0 && t_s < 14.0;
+    const char* mode = full ? "FULL" : t_s < 4.0 ? "LOCAL" : "LEAN";
+    text += std::string("{\"t_s\":") + std::to_string(t_s) + ",\"mode\":\"" + mode +
+            "\",\"reason\":\"none\",\"render_p95_ms\":" + std::to_string(full ? 24.0 : 31.0) +
+            ",\"memory_bytes\":" + std::to_string(2e8 + 2e6 * i) +
+            ",\"bandwidth_bytes_per_s\":" + (i < 4 ? "null" : std::to_string(full ? 9.4e5 : 1.1e5)) +
+            ",\"true_bandwidth_bytes_per_s\":" + std::to_string(full ? 1e6 : 1.2e5) +
+            ",\"bytes_up\":" + std::to_string(bytes_up) + ",\"bytes_down\":" + std::to_string(45'000 * i) +
+            ",\"gaussians\":" + std::to_string(1300 * i) + "}\n";
+    bytes_up += full ? 100'000.0 : t_s < 4.0 ? 0.0 : 20'000.0;
+  }
+  return io::write_file_atomically(folder / "robot" / "modes.jsonl", text);
+}
+
 constexpr const char* kRobotMetrics = R"({
  "counters": {"livox.points.lost": 6, "livox.imu.lost": 1, "sync.late_points": 0, "tracking.coasted_groups": 2, "keyframes.made": 40,
-   "link.bytes_up": 3000000},
+   "link.bytes_up": 3000000, "map.hash_agreed": 17, "map.hash_disagreed": 0},
  "gauges": {"map.gaussians": 52000},
  "histograms": {"tracking.group_ms": {"count": 200, "mean": 18.4, "min": 12.0, "p50": 18.1, "p95": 22.0, "p99": 33.0,
    "max": 36.0}},
@@ -121,12 +141,14 @@ Status make_run_folder(const std::filesystem::path& folder) {
   EDGESPLAT_TRY_STATUS(write_groups(folder));
   EDGESPLAT_TRY_STATUS(write_points(folder));
   EDGESPLAT_TRY_STATUS(write_pictures(folder));
+  EDGESPLAT_TRY_STATUS(write_modes(folder));
   EDGESPLAT_TRY_STATUS(
       io::write_file_atomically(folder / "robot" / "metrics.json", std::string_view(kRobotMetrics)));
-  EDGESPLAT_TRY_STATUS(io::write_file_atomically(
-      folder / "server" / "metrics.json",
-      std::string_view(
-          R"({"counters": {"ingest.chunks_rejected": 0}, "process": {"peak_rss_bytes": 512000000}})")));
+  EDGESPLAT_TRY_STATUS(
+      io::write_file_atomically(folder / "server" / "metrics.json",
+                                std::string_view(
+                                    R"({"counters": {"ingest.chunks_rejected": 0, "ingest.duplicates": 3},
+              "histograms": {"server.keyframe_to_delta_ms": {"count": 40, "p50": 80.0, "p95": 140.0}}, "process": {"peak_rss_bytes": 512000000}})")));
   EDGESPLAT_TRY_STATUS(
       io::write_file_atomically(folder / "rig.toml", std::string_view("name = \"<test & rig>\"\n")));
   return io::write_file_atomically(folder / "robot.toml", std::string_view("[tracking]\nvoxel_m = 0.5\n"));
