@@ -23,6 +23,12 @@ Result<std::unique_ptr<MappingEngine>> MappingEngine::create(const EngineOptions
   return std::unique_ptr<MappingEngine>(new MappingEngine(options, ids, std::move(optimiser)));
 }
 
+Result<std::size_t> MappingEngine::restore(const gaussian::GaussianCloud& cloud) {
+  EDGESPLAT_TRY(const std::size_t restored, optimiser_.add_rows(cloud));
+  seeder_.cover(optimiser_.cloud());
+  return restored;
+}
+
 Result<std::size_t> MappingEngine::add(const map::Keyframe& keyframe,
                                        const geometry::RigidTransform& map_from_body,
                                        const sensor::ImageRgb8* picture) {

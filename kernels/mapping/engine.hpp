@@ -61,6 +61,10 @@ class MappingEngine {
   static Result<std::unique_ptr<MappingEngine>> create(const EngineOptions& options, IdAllocator& ids,
                                                        const Clock& clock);
 
+  /// Goes on with a map made before: its Gaussians as they are, their places covered; what it was trained on
+  /// is not there any more. Before the first add(). Returns how many there was room for. kInvalidArgument,
+  /// and nothing taken, for arrays that disagree or a higher SH degree than the options'.
+  Result<std::size_t> restore(const gaussian::GaussianCloud& cloud);
   /// Seeds what the keyframe shows anew and keeps its picture to train on. `picture`: the keyframe's,
   /// decoded; null where it has none: then it only seeds. Returns how many Gaussians are new.
   /// kInvalidArgument for a picture of another size than the camera's (the points are seeded all the same).

@@ -156,6 +156,15 @@ void append(gaussian::GaussianCloud& cloud, const Vector3f& mean_m, const Shape&
 
 }  // namespace
 
+void MapSeeder::cover(const gaussian::GaussianCloud& cloud) {
+  // How far away each was measured is not known any more. As of the finest level, it fills its cell of every
+  // level: right for the cells of its own level, and of finer ones only the one that it lies in.
+  for (std::size_t row = 0; row < cloud.size(); ++row) {
+    const float* mean_m = &cloud.means_m[3 * row];
+    coverage_.fill(0, {mean_m[0], mean_m[1], mean_m[2]});
+  }
+}
+
 gaussian::GaussianCloud MapSeeder::seed(const SeedInput& input) {
   std::vector<Vector3f> points_in_map_m;
   NewCells found(options_, coverage_, stats_);

@@ -53,6 +53,8 @@ class MapSeeder {
 
   /// The new rows, SH degree 0, in the map frame; empty for a keyframe that shows nothing new. O(n log n).
   gaussian::GaussianCloud seed(const SeedInput& input);
+  /// These Gaussians are there already: nothing is seeded where they are, but finer ones around them may be.
+  void cover(const gaussian::GaussianCloud& cloud);
   [[nodiscard]] const SeedStats& stats() const { return stats_; }
   [[nodiscard]] std::size_t covered_cells() const { return coverage_.cells(); }
 

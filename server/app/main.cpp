@@ -9,13 +9,17 @@
 #include "common/thread/write_signals.hpp"
 #include "server/app/options.hpp"
 #include "server/app/server.hpp"
+#include "server/store/map_folder.hpp"
 #include "server/stream/epoch_file.hpp"
 
 #include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -44,6 +48,31 @@ Status make_folder(const std::filesystem::path& folder) {
   return {};
 }
 
+/// Maps of earlier servers; what cannot be read is said and left where it is.
+Result<std::vector<store::StoredMap>> load_maps(const std::filesystem::path& folder, std::size_t max_robots) {
+  EDGESPLAT_TRY(auto found, store::load_newest_maps(folder, max_robots));
+  for (const store::RefusedMap& refused : found.refused)
+    EDGESPLAT_LOG_ERROR("store", "map refused", "why", refused.error.context);
+  std::vector<store::StoredMap> maps;
+  for (store::LoadedMap& loaded : found.maps) {
+    const store::LoadReport& report = loaded.report;
+    EDGESPLAT_LOG_INFO("store", report.whole() ? "map loaded" : "damaged map recovered", "robot",
+                       loaded.map.robot.value, "gaussians", loaded.map.gaussians.size(), "lost",
+                       report.gaussians_lost, "rounded", report.gaussians_rounded);
+    maps.push_back(std::move(loaded.map));
+  }
+  return maps;
+}
+
+store::RecorderConfig recorder_config(const config::StoreConfig& config,
+                                      const std::filesystem::path& folder) {
+  store::RecorderConfig recorder;
+  recorder.folder = folder;
+  recorder.log.max_bytes = std::uint64_t{config.max_megabytes} * 1'000'000;
+  recorder.queue_keyframes = config.queue_keyframes;
+  return recorder;
+}
+
 void run_until_end(app::Server& server, const app::Options& options, const sigset_t& signals) {
   const nanoseconds period = from_seconds(options.config.heartbeat_period_s);
   while (!wait_for_end(signals, period)) {
@@ -67,7 +96,14 @@ Status run(const app::Options& options) {
   transport_options.role = link::Role::kServer;
   EDGESPLAT_TRY(const auto transport, link::open_dds_transport(std::move(domain), transport_options, clock));
   EDGESPLAT_TRY(const map::Epoch epoch, stream::next_epoch(folder / "epoch"));
-  app::Server server(options.config, epoch, *transport, registry, clock);
+  app::Start start{epoch};
+  std::optional<store::Recorder> recorder;
+  if (options.config.store.enabled) {
+    const auto store_folder = folder / options.config.store.folder;
+    EDGESPLAT_TRY(start.maps, load_maps(store_folder, options.config.max_robots));
+    start.recorder = &recorder.emplace(recorder_config(options.config.store, store_folder), registry, clock);
+  }
+  app::Server server(options.config, std::move(start), *transport, registry, clock);
   EDGESPLAT_LOG_INFO("server", "ready", "epoch", epoch.value, "interface", options.config.link.interface,
                      "domain", options.config.link.domain, "out", folder.string());
   run_until_end(server, options, signals);

@@ -16,9 +16,12 @@ namespace {
 
 constexpr double kBurst_s = 1.0;
 
-/// Ids are never reused over restarts: the epoch is the upper 16 of the counter's 48 bits.
-std::uint64_t first_counter(map::Epoch epoch) {
-  return (static_cast<std::uint64_t>(epoch.value & 0xFFFFU) << 32U) + 1;
+/// Ids are never reused over restarts: the epoch is the upper 16 of the counter's 48 bits; and beyond all
+/// that the saved maps know of, should the epoch be lost.
+std::uint64_t first_counter(const Start& start) {
+  std::uint64_t first = (static_cast<std::uint64_t>(start.epoch.value & 0xFFFFU) << 32U) + 1;
+  for (const store::StoredMap& map : start.maps) first = std::max(first, map.next_id_counter);
+  return first;
 }
 
 std::vector<OutgoingDelta> addressed(map::RobotId robot, std::vector<stream::Bytes> deltas) {
@@ -30,12 +33,13 @@ std::vector<OutgoingDelta> addressed(map::RobotId robot, std::vector<stream::Byt
 
 }  // namespace
 
-MappingStage::MappingStage(const config::ServerConfig& config, map::Epoch epoch, metrics::Registry& registry,
+MappingStage::MappingStage(const config::ServerConfig& config, Start start, metrics::Registry& registry,
                            const Clock& clock)
     : config_(config),
-      epoch_(epoch),
+      epoch_(start.epoch),
       clock_(clock),
-      ids_(config.instance_id, first_counter(epoch)),
+      ids_(config.instance_id, first_counter(start)),
+      restored_(std::move(start.maps)),
       keyframes_(registry.counter("map.keyframes")),
       gaussians_(registry.counter("map.gaussians")),
       steps_(registry.counter("map.steps")),
@@ -44,10 +48,14 @@ MappingStage::MappingStage(const config::ServerConfig& config, map::Epoch epoch,
       delta_bytes_(registry.counter("map.delta_bytes")),
       keyframe_ms_(registry.histogram("map.keyframe_ms")),
       step_ms_(registry.histogram("map.step_ms")),
-      requests_corrupt_(registry.counter("map.requests_corrupt")) {}
+      requests_corrupt_(registry.counter("map.requests_corrupt")),
+      restored_gaussians_(registry.counter("map.restored_gaussians")),
+      copy_ms_(registry.histogram("store.copy_ms")) {}
 
 std::vector<OutgoingDelta> MappingStage::handle(const ingest::IngestedKeyframe& keyframe) {
   const metrics::ScopedTimerMs timer(keyframe_ms_, clock_);
+  restored_.heard(keyframe.robot, keyframe.session);
+  begin_restored();
   RobotMap& robot = map_of(keyframe);
   const std::size_t added = robot.builder->add(keyframe.keyframe);
   keyframes_.add();
@@ -81,6 +89,7 @@ bool MappingStage::has_work() const {
 }
 
 std::vector<OutgoingDelta> MappingStage::work() {
+  begin_restored();
   if (maps_.empty()) return {};
   auto turn = maps_.upper_bound(last_worked_);
   if (turn == maps_.end()) turn = maps_.begin();
@@ -99,21 +108,29 @@ MappingStage::RobotMap& MappingStage::map_of(const ingest::IngestedKeyframe& key
   if (found != maps_.end() && found->second.session == keyframe.session) return found->second;
   // The robot started anew: its odometry frame is another one, so nothing of the old map fits.
   if (found != maps_.end()) maps_.erase(found);
+  RobotMap& fresh = begin(keyframe.robot, keyframe.session, stream::make_map_uuid());
+  share(keyframe.robot, fresh);
+  EDGESPLAT_LOG_INFO("map", "map begun", "robot", keyframe.robot.value, "epoch", epoch_.value);
+  return fresh;
+}
+
+MappingStage::RobotMap& MappingStage::begin(map::RobotId robot, std::uint64_t session,
+                                            const map::MapUuid& name) {
   auto builder = optimise::MapBuilder::create(config_.optimise.engine, ids_, clock_);
   EDGESPLAT_CHECK(builder.has_value(), "the configuration was checked");
   stream::DeltaStreamConfig stream;
-  stream.robot = keyframe.robot;
-  stream.map = stream::make_map_uuid();
+  stream.robot = robot;
+  stream.map = name;
   stream.epoch = epoch_;
   stream.max_rows = config_.delta_gaussians;
-  RobotMap fresh{keyframe.session, *std::move(builder), std::make_shared<stream::DeltaStream>(stream),
+  RobotMap fresh{session, name, *std::move(builder), std::make_shared<stream::DeltaStream>(stream),
                  stream::ByteAllowance(config_.optimise.delta_bytes_per_s, kBurst_s, clock_.now())};
-  {
-    const std::lock_guard lock(streams_mutex_);
-    streams_[keyframe.robot] = {keyframe.session, fresh.stream};
-  }
-  EDGESPLAT_LOG_INFO("map", "map begun", "robot", keyframe.robot.value, "epoch", epoch_.value);
-  return maps_.emplace(keyframe.robot, std::move(fresh)).first->second;
+  return maps_.insert_or_assign(robot, std::move(fresh)).first->second;
+}
+
+void MappingStage::share(map::RobotId robot, const RobotMap& map) {
+  const std::lock_guard lock(streams_mutex_);
+  streams_[robot] = {map.session, map.stream};
 }
 
 std::shared_ptr<stream::DeltaStream> MappingStage::stream_of(map::RobotId robot,
@@ -131,6 +148,7 @@ std::vector<OutgoingDelta> MappingStage::answer(const link::Message& message) {
     requests_corrupt_.add();
     return {};
   }
+  restored_.heard(message.robot, message.session);
   const auto stream = stream_of(message.robot, message.session);
   if (stream == nullptr) return {};
   EDGESPLAT_LOG_DEBUG("map", "map request", "robot", message.robot.value, "kind",
@@ -140,6 +158,7 @@ std::vector<OutgoingDelta> MappingStage::answer(const link::Message& message) {
 
 void MappingStage::take_heartbeat(const link::Message& message) {
   const auto heartbeat = link::decode_heartbeat(message.bytes);
+  if (heartbeat) restored_.heard(message.robot, message.session);
   const auto stream = stream_of(message.robot, message.session);
   if (heartbeat && stream != nullptr) stream->confirmed(heartbeat->epoch, heartbeat->seq);
 }

@@ -5,9 +5,11 @@
 #include "common/link/transport.hpp"
 #include "common/time/clock.hpp"
 #include "kernels/mapping/id_allocator.hpp"
+#include "server/app/restored_maps.hpp"
 #include "server/config/server_config.hpp"
 #include "server/ingest/ingest.hpp"
 #include "server/optimise/map_builder.hpp"
+#include "server/store/recorder.hpp"
 #include "server/stream/byte_allowance.hpp"
 #include "server/stream/delta_stream.hpp"
 
@@ -27,6 +29,13 @@ struct MapStatus {
   std::size_t gaussians = 0;
 };
 
+/// How a server begins.
+struct Start {
+  map::Epoch epoch;
+  std::vector<store::StoredMap> maps = {};  ///< of earlier servers, for robots that still run
+  store::Recorder* recorder = nullptr;      ///< keeps keyframes and maps; null: nothing is kept
+};
+
 /// An encoded delta and whom it is for.
 struct OutgoingDelta {
   map::RobotId robot;
@@ -39,7 +48,7 @@ struct OutgoingDelta {
 /// and map.step_ms.
 class MappingStage {
  public:
-  MappingStage(const config::ServerConfig& config, map::Epoch epoch, metrics::Registry& registry,
+  MappingStage(const config::ServerConfig& config, Start start, metrics::Registry& registry,
                const Clock& clock);
 
   /// New Gaussians go out at once, as far as the robot's allowance goes.
@@ -52,6 +61,9 @@ class MappingStage {
   std::vector<OutgoingDelta> answer(const link::Message& message);
   /// A robot's heartbeat says what it has applied.
   void take_heartbeat(const link::Message& message);
+  /// Copies of the maps that changed since the last call, to be saved. On the thread of work().
+  [[nodiscard]] std::vector<store::StoredMap> changed_maps();
+  [[nodiscard]] std::vector<store::StoredMap> all_maps();
   [[nodiscard]] std::vector<MapStatus> status() const;
   /// The maps as they were seeded, where the configuration keeps them.
   [[nodiscard]] std::vector<const gaussian::GaussianCloud*> seeds() const;
@@ -59,13 +71,24 @@ class MappingStage {
  private:
   struct RobotMap {
     std::uint64_t session;
+    map::MapUuid name;
     std::unique_ptr<optimise::MapBuilder> builder;
     std::shared_ptr<stream::DeltaStream> stream;
     stream::ByteAllowance allowance;
     HostTime last_publish{};
-    std::uint64_t bad_pictures = 0;  ///< counted already
+    std::uint64_t bad_pictures = 0;    ///< counted already
+    std::uint64_t saved_revision = 0;  ///< keyframes and steps that changed_maps() has given
+
+    [[nodiscard]] std::uint64_t revision() const {
+      return builder->poses().size() + builder->engine().steps();
+    }
   };
   RobotMap& map_of(const ingest::IngestedKeyframe& keyframe);
+  RobotMap& begin(map::RobotId robot, std::uint64_t session, const map::MapUuid& name);
+  void share(map::RobotId robot, const RobotMap& map);
+  void begin_restored();
+  void restore(const store::StoredMap& stored);
+  [[nodiscard]] store::StoredMap copy_of(map::RobotId robot, RobotMap& map);
   std::vector<OutgoingDelta> publish(map::RobotId robot, RobotMap& map);
   [[nodiscard]] std::shared_ptr<stream::DeltaStream> stream_of(map::RobotId robot,
                                                                std::uint64_t session) const;
@@ -74,6 +97,7 @@ class MappingStage {
   const map::Epoch epoch_;
   const Clock& clock_;
   mapping::IdAllocator ids_;
+  RestoredMaps restored_;
   std::map<map::RobotId, RobotMap> maps_;  ///< of the mapping thread
   map::RobotId last_worked_{};
   metrics::Counter& keyframes_;
@@ -85,6 +109,8 @@ class MappingStage {
   metrics::Histogram& keyframe_ms_;
   metrics::Histogram& step_ms_;
   metrics::Counter& requests_corrupt_;
+  metrics::Counter& restored_gaussians_;
+  metrics::Histogram& copy_ms_;
   mutable std::mutex streams_mutex_;
   struct SharedStream {
     std::uint64_t session;

@@ -14,16 +14,18 @@ constexpr nanoseconds kIdleWait = std::chrono::milliseconds(50);
 
 }  // namespace
 
-Server::Server(const config::ServerConfig& config, map::Epoch epoch, link::Transport& transport,
+Server::Server(const config::ServerConfig& config, Start start, link::Transport& transport,
                metrics::Registry& registry, const Clock& clock)
     : config_(config),
       transport_(transport),
       clock_(clock),
+      recorder_(start.recorder),
       ingest_(registry, config.max_robots),
-      stage_(config, epoch, registry, clock),
+      stage_(config, std::move(start), registry, clock),
       keyframe_to_delta_ms_(registry.histogram("server.keyframe_to_delta_ms")),
       deltas_refused_(registry.counter("server.deltas_refused")),
       last_keyframe_ns_(to_ns(clock.now())),
+      last_save_(clock.now()),
       // A full queue blocks the receiver; its inbox and DDS fill up then, and the robots shed what is oldest.
       queue_({config.queue_keyframes}, thread::Overflow::kBlock) {
   mapper_.emplace("map", [this](const std::stop_token&) { return map_step(); });
@@ -35,13 +37,13 @@ Server::~Server() {
 }
 
 bool Server::receive_step(const std::stop_token& stop) {
-  const auto message = transport_.receive(std::chrono::milliseconds(100));
+  auto message = transport_.receive(std::chrono::milliseconds(100));
   if (stop.stop_requested()) return false;
   if (!message) return !transport_.finished();
   switch (message->lane) {
     case link::Lane::kKeyframe:
     case link::Lane::kSpool:
-      take_keyframe(*message);
+      take_keyframe(*std::move(message));
       break;
     case link::Lane::kRequest:
       send(stage_.answer(*message));
@@ -61,11 +63,13 @@ void Server::hear(map::RobotId robot) {
   if (heard_.size() < config_.max_robots) heard_.insert(robot);
 }
 
-void Server::take_keyframe(const link::Message& message) {
+void Server::take_keyframe(link::Message message) {
   const HostTime received = clock_.now();
   last_keyframe_ns_ = to_ns(received);
   auto keyframe = ingest_.take(message, received);
-  if (keyframe) (void)queue_.push(std::move(*keyframe));
+  if (!keyframe) return;
+  if (recorder_ != nullptr) recorder_->keyframe({message.robot, message.session, std::move(message.bytes)});
+  (void)queue_.push(std::move(*keyframe));
 }
 
 bool Server::map_step() {
@@ -79,7 +83,16 @@ bool Server::map_step() {
   } else {
     send(stage_.work());
   }
+  save_if_due();
   return true;
+}
+
+void Server::save_if_due() {
+  if (recorder_ == nullptr || recorder_->saving()) return;
+  const HostTime now = clock_.now();
+  if (now - last_save_ < from_seconds(config_.store.save_period_s)) return;
+  last_save_ = now;
+  for (store::StoredMap& map : stage_.changed_maps()) (void)recorder_->map(std::move(map));
 }
 
 void Server::send(std::vector<OutgoingDelta> deltas) {
@@ -131,6 +144,7 @@ void Server::finish(nanoseconds patience) {
   if (mapper_) {
     mapper_->join();
     mapper_.reset();
+    if (recorder_ != nullptr) recorder_->finish(stage_.all_maps());
     if (!transport_.drain(link::Lane::kDelta, patience) && patience > nanoseconds(0)) {
       EDGESPLAT_LOG_WARN("server", "some deltas were not acknowledged before the end");
     }

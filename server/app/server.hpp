@@ -20,7 +20,7 @@ namespace edgesplat::app {
 /// everything it is given.
 class Server {
  public:
-  Server(const config::ServerConfig& config, map::Epoch epoch, link::Transport& transport,
+  Server(const config::ServerConfig& config, Start start, link::Transport& transport,
          metrics::Registry& registry, const Clock& clock);
   ~Server();
   Server(const Server&) = delete;
@@ -40,19 +40,22 @@ class Server {
  private:
   bool receive_step(const std::stop_token& stop);
   void hear(map::RobotId robot);
-  void take_keyframe(const link::Message& message);
+  void take_keyframe(link::Message message);
   bool map_step();
+  void save_if_due();
   void send(std::vector<OutgoingDelta> deltas);
   void send_heartbeat(const MapStatus& status, const link::LaneCounters& down);
 
   const config::ServerConfig& config_;
   link::Transport& transport_;
   const Clock& clock_;
+  store::Recorder* const recorder_;
   ingest::Ingest ingest_;
   MappingStage stage_;
   metrics::Histogram& keyframe_to_delta_ms_;
   metrics::Counter& deltas_refused_;
   std::atomic<std::int64_t> last_keyframe_ns_;
+  HostTime last_save_;  ///< of the mapping thread
   std::mutex heard_mutex_;
   std::set<map::RobotId> heard_;  ///< robots that are there, perhaps without a map; at most max_robots
   thread::BoundedQueue<ingest::IngestedKeyframe> queue_;

@@ -72,6 +72,17 @@ void describe_optimise(ConfigReader& reader, OptimiseConfig& optimise) {
   });
 }
 
+void describe_store(ConfigReader& reader, StoreConfig& store) {
+  reader.field("enabled", store.enabled, "off: neither keyframes nor maps are written");
+  reader.field("folder", store.folder, "under DIR/server of the run, unless it begins with /");
+  reader.field("save_period_s", store.save_period_s, Range{0.1, 3600.0},
+               "between two times that a map is saved");
+  reader.field("max_megabytes", store.max_megabytes, Range<std::size_t>{1, 1'000'000},
+               "of keyframes; the oldest go first");
+  reader.field("queue_keyframes", store.queue_keyframes, Range<std::size_t>{1, 4096},
+               "waiting for the disk; full: the newest are left out");
+}
+
 }  // namespace
 
 void describe(ConfigReader& reader, ServerConfig& config) {
@@ -89,6 +100,7 @@ void describe(ConfigReader& reader, ServerConfig& config) {
                [&] { describe_seed(reader, config.optimise.engine.seed); });
   reader.table("optimise", "what makes them look like the pictures",
                [&] { describe_optimise(reader, config.optimise); });
+  reader.table("store", "what outlives the server", [&] { describe_store(reader, config.store); });
 }
 
 }  // namespace edgesplat::config

@@ -28,6 +28,15 @@ struct OptimiseConfig {
   mapping::EngineOptions engine;
 };
 
+/// What outlives the server.
+struct StoreConfig {
+  bool enabled = true;               ///< off: nothing is written but metrics
+  std::string folder = "store";      ///< under the run folder's server/, unless it begins with /
+  double save_period_s = 10.0;       ///< between two times that a robot's map is saved
+  std::size_t max_megabytes = 4096;  ///< of keyframes; the oldest go first
+  std::size_t queue_keyframes = 64;  ///< waiting for the disk; full: the newest are left out
+};
+
 /// Everything edgesplat-server can be told.
 struct ServerConfig {
   std::string log_level = "info";  ///< trace, debug, info, warn, error, off
@@ -39,6 +48,7 @@ struct ServerConfig {
   double heartbeat_period_s = 0.2;
   link::LinkConfig link = roomy_link();
   OptimiseConfig optimise;
+  StoreConfig store;
 };
 
 void describe(ConfigReader& reader, ServerConfig& config);

@@ -15,6 +15,13 @@ Result<std::unique_ptr<MapBuilder>> MapBuilder::create(const mapping::EngineOpti
   return std::unique_ptr<MapBuilder>(new MapBuilder(std::move(engine)));
 }
 
+Result<std::size_t> MapBuilder::restore(const gaussian::GaussianCloud& cloud,
+                                        std::vector<KeyframePose> poses) {
+  EDGESPLAT_TRY(const std::size_t restored, engine_->restore(cloud));
+  poses_ = std::move(poses);
+  return restored;
+}
+
 std::size_t MapBuilder::add(const map::Keyframe& keyframe) {
   std::optional<sensor::ImageRgb8> picture;
   if (keyframe.image && keyframe.camera) {
@@ -29,7 +36,10 @@ std::size_t MapBuilder::add(const map::Keyframe& keyframe) {
     }
   }
   const auto added = engine_->add(keyframe, keyframe.odom_from_body, picture ? &*picture : nullptr);
-  if (added) return *added;
+  if (added) {
+    poses_.push_back({keyframe.id, keyframe.pose_version, keyframe.odom_from_body});
+    return *added;
+  }
   EDGESPLAT_LOG_ERROR("map", "keyframe not mapped", "keyframe", keyframe.id.value, "why",
                       added.error().context);
   return 0;

@@ -8,8 +8,17 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace edgesplat::optimise {
+
+/// Where a keyframe was put.
+struct KeyframePose {
+  map::KeyframeId keyframe;
+  std::uint32_t version = 0;
+  geometry::RigidTransform map_from_body;
+};
 
 /// The server's map of one robot's session: grown keyframe by keyframe, optimised step by step. `map` and
 /// `odom` are one frame until poses are corrected. Single-owner.
@@ -22,18 +31,23 @@ class MapBuilder {
   /// Decodes the picture, seeds what is new, trains on it from now on; returns how many Gaussians are new. A
   /// picture that does not decode is counted, and the points are used alone.
   std::size_t add(const map::Keyframe& keyframe);
+  /// Goes on with a map of an earlier server, before the first add(); as of MappingEngine::restore().
+  Result<std::size_t> restore(const gaussian::GaussianCloud& cloud, std::vector<KeyframePose> poses);
   [[nodiscard]] bool has_work() const { return engine_->has_work(); }
   /// One optimisation step; nothing without a view.
   std::optional<mapping::StepReport> step() { return engine_->step(); }
   [[nodiscard]] mapping::EngineChanges take_changes() { return engine_->take_changes(); }
 
   [[nodiscard]] const mapping::MappingEngine& engine() const { return *engine_; }
+  /// Of every keyframe that was added, in their order.
+  [[nodiscard]] std::span<const KeyframePose> poses() const { return poses_; }
   [[nodiscard]] std::uint64_t bad_pictures() const { return bad_pictures_; }
 
  private:
   explicit MapBuilder(std::unique_ptr<mapping::MappingEngine> engine) : engine_(std::move(engine)) {}
 
   std::unique_ptr<mapping::MappingEngine> engine_;
+  std::vector<KeyframePose> poses_;
   std::uint64_t bad_pictures_ = 0;
 };
 

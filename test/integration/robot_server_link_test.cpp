@@ -58,7 +58,7 @@ TEST_F(RobotServerLinkTest, BothEndsHoldTheSameMap) {
   metrics::Registry registry;
   const config::ServerConfig config;
   const auto transport = *link::open_dds_transport(domain_, {link::Role::kServer, map::RobotId{0}, 0}, clock);
-  app::Server server(config, map::Epoch{1}, *transport, registry, clock);
+  app::Server server(config, {map::Epoch{1}}, *transport, registry, clock);
   RobotEnd robot(domain_);
   submit_walls(robot, 0, 20);
   ASSERT_TRUE(robot.uplink().drain(60s));

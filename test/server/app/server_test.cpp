@@ -24,7 +24,7 @@ struct Bench {
 
 TEST(Server, AnswersKeyframesWithDeltasAndTellsItsHash) {
   Bench bench;
-  Server server(bench.config, map::Epoch{5}, *bench.link.server, bench.registry, bench.clock);
+  Server server(bench.config, {map::Epoch{5}}, *bench.link.server, bench.registry, bench.clock);
   for (std::uint32_t id = 0; id < 3; ++id) {
     const auto bytes = map::encode_keyframe(test::wall_keyframe(id, 2000, 5.0 * id));
     ASSERT_TRUE(bench.link.robot->send(link::Lane::kKeyframe, kRobot, *bytes));
@@ -51,7 +51,7 @@ TEST(Server, AnswersKeyframesWithDeltasAndTellsItsHash) {
 TEST(Server, FinishMapsWhatWasReceived) {
   Bench bench;
   {
-    Server server(bench.config, map::Epoch{1}, *bench.link.server, bench.registry, bench.clock);
+    Server server(bench.config, {map::Epoch{1}}, *bench.link.server, bench.registry, bench.clock);
     (void)bench.link.robot->send(link::Lane::kKeyframe, kRobot,
                                  *map::encode_keyframe(test::wall_keyframe(0, 500)));
     while (bench.registry.counter("ingest.keyframes").value() == 0) {

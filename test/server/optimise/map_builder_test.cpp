@@ -71,5 +71,39 @@ TEST(MapBuilder, StepsMakeTheMapLikeThePicture) {
   EXPECT_FALSE(maker.builder->take_changes().changed_rows.empty());
 }
 
+TEST(MapBuilder, GoesOnWithAMapMadeBefore) {
+  Maker first;
+  const auto wall = test::wall_keyframe(4, 3000);
+  const std::size_t seeded = first.builder->add(wall);
+  ASSERT_GT(seeded, 500U);
+  Maker second;
+  const auto& before = first.builder->engine().cloud();
+  const auto restored =
+      second.builder->restore(before, {first.builder->poses().begin(), first.builder->poses().end()});
+  ASSERT_TRUE(restored.has_value());
+  EXPECT_EQ(*restored, seeded);
+  EXPECT_EQ(second.builder->engine().cloud().ids, before.ids);
+  EXPECT_EQ(second.builder->take_changes().changed_rows.size(), seeded);
+  EXPECT_LT(second.builder->add(wall), seeded / 20);  // the same wall is there
+  auto another = test::wall_keyframe(5, 3000);
+  another.odom_from_body.translation_m.y() = 50.0;
+  EXPECT_GT(second.builder->add(another), seeded / 2);
+  ASSERT_EQ(second.builder->poses().size(), 3U);
+  EXPECT_EQ(second.builder->poses()[0].keyframe.value, 4U);
+}
+
+TEST(MapBuilder, RefusesAMapOfAnotherKind) {
+  Maker maker;
+  auto cloud = test::random_gaussians(10, 1, 3);
+  mapping::EngineOptions options;
+  options.optimiser.sh_degree = 0;
+  maker.builder = *MapBuilder::create(options, maker.ids, maker.clock);
+  EXPECT_FALSE(maker.builder->restore(cloud, {}).has_value());
+  cloud = test::random_gaussians(10, 1, 0);
+  cloud.means_m.pop_back();
+  EXPECT_FALSE(maker.builder->restore(cloud, {}).has_value());
+  EXPECT_EQ(maker.builder->engine().cloud().size(), 0U);
+}
+
 }  // namespace
 }  // namespace edgesplat::optimise

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/map_file.hpp"
+#include "test/integration/robot_end.hpp"
+#include "test/support/child_process.hpp"
+#include "test/support/map_samples.hpp"
+#include "test/support/temp_dir.hpp"
+#include "test/support/test_domain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <functional>
+#include <thread>
+
+namespace edgesplat {
+namespace {
+
+using test::ChildProcess;
+using test::RobotEnd;
+using namespace std::chrono_literals;
+
+/// A server that is killed and started again in the same folder.
+class ServerRestartTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    link::LinkConfig config;
+    config.domain = test::test_domain();
+    auto domain = link::DdsDomain::open(config);
+    ASSERT_TRUE(domain.has_value()) << domain.error().context;
+    domain_ = *domain;
+  }
+  std::unique_ptr<ChildProcess> start_server() {
+    return std::make_unique<ChildProcess>(
+        std::vector<std::string>{EDGESPLAT_BINARY_DIR "/bin/edgesplat-server", "--domain",
+                                 std::to_string(test::test_domain()), "--out", folder_.path().string(),
+                                 "--set", "store.save_period_s=0.1", "--set", "optimise.enabled=false"});
+  }
+  static void submit_wall(RobotEnd& robot, std::uint32_t id) {
+    auto keyframe = test::wall_keyframe(id, 3000);
+    keyframe.odom_from_body.translation_m.y() = 5.0 * id;
+    (void)robot.uplink().submit(std::make_shared<const map::Keyframe>(keyframe));
+  }
+  /// As the robot's program does: says who it is and what it has, until `done`.
+  static bool speak_until(RobotEnd& robot, const std::function<bool()>& done) {
+    for (int i = 0; i < 300 && !done(); ++i) {
+      link::Heartbeat heartbeat;
+      heartbeat.epoch = robot.map().position().epoch;
+      heartbeat.seq = robot.map().position().seq;
+      (void)robot.transport().send(link::Lane::kHeartbeat, RobotEnd::kRobot,
+                                   link::encode_heartbeat(heartbeat));
+      std::this_thread::sleep_for(100ms);
+    }
+    return done();
+  }
+  [[nodiscard]] std::vector<std::filesystem::path> map_files() const {
+    std::vector<std::filesystem::path> files;
+    std::error_code none;
+    for (const auto& file : std::filesystem::directory_iterator(folder_.path() / "server" / "store", none))
+      if (file.path().extension() == ".map") files.push_back(file.path());
+    return files;
+  }
+
+  test::TempDir folder_;
+  std::shared_ptr<link::DdsDomain> domain_;
+};
+
+TEST_F(ServerRestartTest, AKilledServerGoesOnWithTheMapOfARobotThatStillRuns) {
+  auto server = start_server();
+  RobotEnd robot(domain_);
+  for (std::uint32_t id = 0; id < 5; ++id) submit_wall(robot, id);
+  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 5, 60s));
+  const auto before = robot.map().counters().gaussians;
+  const auto hash = robot.map().map_hash();
+  ASSERT_TRUE(speak_until(robot, [&] {
+    const auto files = map_files();
+    if (files.size() != 1) return false;
+    const auto saved = store::load_map(files[0]);
+    return saved && saved->map.gaussians.size() == before;
+  }));
+  server->signal(SIGKILL);
+  ASSERT_EQ(server->wait(20s), 128 + SIGKILL);
+
+  const HostTime killed = robot.clock().now();
+  server = start_server();
+  ASSERT_TRUE(speak_until(robot,
+                          [&] {
+                            return robot.map().position().epoch == map::Epoch{2} &&
+                                   robot.map().counters().gaussians == before;
+                          }))
+      << robot.map().counters().gaussians << " of " << before;
+  RecordProperty("back_after_ms", static_cast<int>(to_seconds(robot.clock().now() - killed) * 1e3));
+  EXPECT_EQ(robot.map().map_hash(), hash);  // the same Gaussians by name and value
+
+  // What it covers is not seeded again; a place of its own is.
+  const auto at = robot.map().position().seq;
+  submit_wall(robot, 3);
+  submit_wall(robot, 20);
+  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{2}, at + 1, 60s));
+  EXPECT_GT(robot.map().counters().gaussians, before + before / 10);
+  EXPECT_LT(robot.map().counters().gaussians, before + before / 4);
+  server->signal(SIGTERM);
+  EXPECT_EQ(server->wait(20s), 0);
+  EXPECT_EQ(map_files().size(), 1U);
+}
+
+TEST_F(ServerRestartTest, ARobotThatBeganAnewGetsAMapOfItsOwnAndTheOldFileStays) {
+  auto server = start_server();
+  {
+    RobotEnd robot(domain_);
+    submit_wall(robot, 0);
+    ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 1, 60s));
+  }
+  server->signal(SIGTERM);
+  ASSERT_EQ(server->wait(20s), 0);
+  ASSERT_EQ(map_files().size(), 1U);
+  server = start_server();
+  RobotEnd robot(domain_);
+  submit_wall(robot, 7);
+  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{2}, 1, 60s));
+  const auto snapshot = robot.map().snapshot();
+  for (std::size_t row = 0; row < snapshot->size(); ++row)
+    ASSERT_GT(snapshot->means_m[3 * row + 1], 30.0F);  // nothing of the first wall
+  server->signal(SIGTERM);
+  EXPECT_EQ(server->wait(20s), 0);
+  EXPECT_EQ(map_files().size(), 2U);
+}
+
+TEST_F(ServerRestartTest, ADamagedMapFileNeverStopsTheServer) {
+  auto server = start_server();
+  RobotEnd robot(domain_);
+  submit_wall(robot, 0);
+  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 1, 60s));
+  server->signal(SIGTERM);
+  ASSERT_EQ(server->wait(20s), 0);
+  ASSERT_EQ(map_files().size(), 1U);
+  std::filesystem::resize_file(map_files()[0], 20);
+  server = start_server();
+  submit_wall(robot, 1);
+  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{2}, 1, 60s));
+  server->signal(SIGTERM);
+  EXPECT_EQ(server->wait(20s), 0);
+}
+
+}  // namespace
+}  // namespace edgesplat
