@@ -54,7 +54,7 @@ struct OffloadSettings {
   uplink::UplinkConfig config;
   config.router.full_bytes_per_s = 280e3;  // of 300 kB/s, the rest for heartbeats, repetitions and probes
   config.router.lean_bytes_per_s = 54e3;   // of 60 kB/s
-  config.full_keyframe_bytes = 60'000;
+  config.full_keyframe_bytes = 120'000;
   config.lean_keyframe_bytes = 40'000;
   return config;
 }

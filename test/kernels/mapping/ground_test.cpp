@@ -49,7 +49,7 @@ TEST(FindGround, FollowsARampSomewhat) {
 
 TEST(FindGround, FindsNoneWhereNothingLiesBelow) {
   EXPECT_FALSE(find_ground({}, {}, {}));
-  EXPECT_FALSE(find_ground(floor_and_wall(0.0, 0.6, 50, 0), {}, {})) << "too few points";
+  EXPECT_FALSE(find_ground(floor_and_wall(0.0, 0.6, 30, 0), {}, {})) << "too few points";
   EXPECT_FALSE(find_ground(floor_and_wall(0.0, 9.0, 3000, 0), {}, {})) << "too far below to stand on";
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<map::ColouredPoint> broken(500, {{nan, nan, nan}, {}, true});
