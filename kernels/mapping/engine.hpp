@@ -23,6 +23,7 @@ namespace edgesplat::mapping {
   options.rates.mean_m = 1e-3F;
   options.rates.log_scale = 2e-2F;
   options.rates.sh_base = 2e-2F;
+  options.rates.opacity_logit = 6e-2F;
   return options;
 }
 

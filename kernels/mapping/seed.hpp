@@ -17,7 +17,7 @@ struct SeedOptions {
   CoverageOptions coverage;
   float max_range_m = 60.0F;       ///< farther points are left out, 1..500
   float opacity = 0.9F;            ///< of a new Gaussian, 0.05..0.99
-  float sigma_per_spacing = 0.6F;  ///< size of a Gaussian over the distance to its neighbours, 0.2..2
+  float sigma_per_spacing = 1.0F;  ///< size of a Gaussian over the distance to its neighbours, 0.2..2
   float min_sigma_m = 0.01F;       ///< 0.001..0.1
   float max_sigma_m = 0.6F;        ///< 0.05..5
   float flat_ratio = 0.15F;        ///< thickness over width where the surface is a plane, 0.01..1

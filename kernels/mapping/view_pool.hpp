@@ -14,7 +14,7 @@ namespace edgesplat::mapping {
 struct ViewPoolOptions {
   std::size_t max_bytes = std::size_t{512} << 20U;  ///< of pictures and depths
   std::size_t recent = 8;                           ///< the newest views, which get ...
-  float recent_share = 0.4F;  ///< ... this share of the steps on top of their turn, 0..1
+  float recent_share = 0.6F;  ///< ... this share of the steps on top of their turn, 0..1
 };
 
 /// The views a map is trained on, bounded in bytes, and whose turn it is: the newest often, so that what the
