@@ -23,7 +23,7 @@ struct GroundOptions {
   double most_below_m = 3.0;    ///< and at most so far, 0.2..10
   double band_m = 0.04;         ///< half thickness of what is taken as the floor, 0.01..0.3
   double max_slope_rad = 0.25;  ///< of a floor that one can stand on, 0.01..0.8
-  int min_points = 40;         ///< 20..100000
+  int min_points = 40;          ///< 20..100000
 };
 
 /// The best supported level within a robot's height under it, fitted by least squares; nothing where no level
