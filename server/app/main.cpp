@@ -9,6 +9,7 @@
 #include "common/thread/write_signals.hpp"
 #include "server/app/options.hpp"
 #include "server/app/server.hpp"
+#include "server/app/service_notify.hpp"
 #include "server/store/map_folder.hpp"
 #include "server/stream/epoch_file.hpp"
 
@@ -24,6 +25,9 @@
 namespace {
 
 using namespace edgesplat;
+
+/// A thread of the server that has not come round for so long hangs.
+constexpr nanoseconds kHung = std::chrono::seconds(10);
 
 /// SIGTERM and SIGINT, kept for sigtimedwait: to be blocked before any thread starts.
 sigset_t block_end_signals() {
@@ -73,10 +77,16 @@ store::RecorderConfig recorder_config(const config::StoreConfig& config,
   return recorder;
 }
 
-void run_until_end(app::Server& server, const app::Options& options, const sigset_t& signals) {
+void say(const Status& told) {
+  if (!told) EDGESPLAT_LOG_WARN("server", "service manager not told", "why", told.error().context);
+}
+
+void run_until_end(app::Server& server, const app::Options& options, const sigset_t& signals,
+                   const app::ServiceNotify& notify) {
   const nanoseconds period = from_seconds(options.config.heartbeat_period_s);
   while (!wait_for_end(signals, period)) {
     server.send_heartbeats();
+    if (server.without_progress() < kHung) say(notify.watchdog());
     if (options.idle_exit_s && server.idle() >= from_seconds(*options.idle_exit_s)) {
       EDGESPLAT_LOG_INFO("server", "idle: ending", "idle_exit_s", *options.idle_exit_s);
       return;
@@ -106,7 +116,10 @@ Status run(const app::Options& options) {
   app::Server server(options.config, std::move(start), *transport, registry, clock);
   EDGESPLAT_LOG_INFO("server", "ready", "epoch", epoch.value, "interface", options.config.link.interface,
                      "domain", options.config.link.domain, "out", folder.string());
-  run_until_end(server, options, signals);
+  const auto notify = app::ServiceNotify::from_environment();
+  say(notify.ready());
+  run_until_end(server, options, signals, notify);
+  say(notify.stopping());
   server.finish(std::chrono::seconds(2));
   link::record(registry, *transport);
   EDGESPLAT_TRY_STATUS(io::write_file_atomically(folder / "metrics.json", registry.to_json()));

@@ -5,6 +5,7 @@
 #include "common/link/heartbeat.hpp"
 #include "common/log/log.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace edgesplat::app {
@@ -25,6 +26,8 @@ Server::Server(const config::ServerConfig& config, Start start, link::Transport&
       keyframe_to_delta_ms_(registry.histogram("server.keyframe_to_delta_ms")),
       deltas_refused_(registry.counter("server.deltas_refused")),
       last_keyframe_ns_(to_ns(clock.now())),
+      received_round_ns_(to_ns(clock.now())),
+      mapped_round_ns_(to_ns(clock.now())),
       last_save_(clock.now()),
       // A full queue blocks the receiver; its inbox and DDS fill up then, and the robots shed what is oldest.
       queue_({config.queue_keyframes}, thread::Overflow::kBlock) {
@@ -37,6 +40,7 @@ Server::~Server() {
 }
 
 bool Server::receive_step(const std::stop_token& stop) {
+  received_round_ns_ = to_ns(clock_.now());
   auto message = transport_.receive(std::chrono::milliseconds(100));
   if (stop.stop_requested()) return false;
   if (!message) return !transport_.finished();
@@ -73,6 +77,7 @@ void Server::take_keyframe(link::Message message) {
 }
 
 bool Server::map_step() {
+  mapped_round_ns_ = to_ns(clock_.now());
   // Keyframes first; between them the maps are made better, and with nothing to do the thread sleeps.
   auto keyframe = stage_.has_work() ? queue_.try_pop() : queue_.pop_for(kIdleWait);
   if (keyframe) {
@@ -132,6 +137,11 @@ void Server::send_heartbeat(const MapStatus& status, const link::LaneCounters& d
 
 nanoseconds Server::idle() const {
   return clock_.now() - host_time_from_ns(last_keyframe_ns_.load());
+}
+
+nanoseconds Server::without_progress() const {
+  const std::int64_t slower_ns = std::min(received_round_ns_.load(), mapped_round_ns_.load());
+  return clock_.now() - host_time_from_ns(slower_ns);
 }
 
 void Server::finish(nanoseconds patience) {

@@ -30,6 +30,8 @@ class Server {
   void send_heartbeats();
   /// Time since the last keyframe came, or since start.
   [[nodiscard]] nanoseconds idle() const;
+  /// Since the slower of the two threads came round last; grows without end when one hangs.
+  [[nodiscard]] nanoseconds without_progress() const;
   /// Maps what was received, sends what was made (waiting up to `patience` for the robots) and ends the
   /// threads.
   void finish(nanoseconds patience);
@@ -55,7 +57,9 @@ class Server {
   metrics::Histogram& keyframe_to_delta_ms_;
   metrics::Counter& deltas_refused_;
   std::atomic<std::int64_t> last_keyframe_ns_;
-  HostTime last_save_;  ///< of the mapping thread
+  std::atomic<std::int64_t> received_round_ns_;  ///< when the thread came round last
+  std::atomic<std::int64_t> mapped_round_ns_;    ///< the same
+  HostTime last_save_;                           ///< of the mapping thread
   std::mutex heard_mutex_;
   std::set<map::RobotId> heard_;  ///< robots that are there, perhaps without a map; at most max_robots
   thread::BoundedQueue<ingest::IngestedKeyframe> queue_;

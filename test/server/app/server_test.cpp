@@ -36,6 +36,7 @@ TEST(Server, AnswersKeyframesWithDeltasAndTellsItsHash) {
     ASSERT_TRUE(message.has_value());
     if (message->lane == link::Lane::kDelta) ++deltas;
   }
+  EXPECT_LT(server.without_progress(), std::chrono::seconds(10));  // both threads come round
   server.finish(std::chrono::seconds(1));
   server.send_heartbeats();
   const auto message = bench.link.robot->receive(std::chrono::seconds(20));
