@@ -67,6 +67,12 @@ Result<nlohmann::json> score_run(const ScoreOptions& options) {
   input.target = [&](const quality::HeldOutView& view) -> Result<sensor::ImageRgb8> {
     return simulate::clean_picture(*world, input.keyframes.front().camera, view.world_from_camera);
   };
+  std::optional<quality::Lpips> lpips;
+  if (!options.lpips_model.empty() && std::filesystem::exists(options.lpips_model)) {
+    EDGESPLAT_TRY(auto network, quality::Lpips::load(options.lpips_model));
+    lpips = std::move(network);
+    input.lpips = &*lpips;
+  }
   EDGESPLAT_TRY(const auto scores, quality::score_held_out(input, options.run / "heldout"));
   nlohmann::json json = quality::to_json(scores);
   EDGESPLAT_TRY_STATUS(io::write_file_atomically(options.run / "heldout.json", json.dump(1) + "\n"));

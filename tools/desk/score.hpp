@@ -15,6 +15,7 @@ struct ScoreOptions {
   std::filesystem::path run;    ///< run folder with robot/gaussians_at_input_end.ply and robot/keyframes
   std::filesystem::path input;  ///< the simulated recording that was streamed or replayed
   std::size_t views = 24;       ///< at most
+  std::filesystem::path lpips_model;  ///< folder of the LPIPS network; empty or absent: no LPIPS
 };
 
 /// Draws the robot's own map from true poses between its keyframes and compares with the clean simulated

@@ -32,10 +32,15 @@ void add_score_verb(CLI::App& app, VerbContext& context) {
       "score", "Compare a run's map with the simulated world from places between keyframes");
   auto options = std::make_shared<ScoreOptions>();
   auto json = std::make_shared<bool>(false);
+  options->lpips_model = "../shared/models/lpips_alex";
   verb->add_option("--run", options->run, "The run folder")->required();
   verb->add_option("--input", options->input, "The simulated recording, .mcap")->required();
   verb->add_option("--views", options->views, "Places at most")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb->add_option("--lpips", options->lpips_model,
+                   "Folder of the LPIPS network; without it there is no LPIPS")
+      ->envname("EDGESPLAT_LPIPS")
       ->capture_default_str();
   verb->add_flag("--json", *json, "Print the means as one JSON line on stdout");
   verb->callback(
