@@ -13,6 +13,7 @@
 #include "server/store/map_folder.hpp"
 #include "server/stream/epoch_file.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
@@ -105,14 +106,17 @@ Status run(const app::Options& options) {
   link::DdsTransportOptions transport_options;
   transport_options.role = link::Role::kServer;
   EDGESPLAT_TRY(const auto transport, link::open_dds_transport(std::move(domain), transport_options, clock));
-  EDGESPLAT_TRY(const map::Epoch epoch, stream::next_epoch(folder / "epoch"));
-  app::Start start{epoch};
+  app::Start start;
   std::optional<store::Recorder> recorder;
   if (options.config.store.enabled) {
     const auto store_folder = folder / options.config.store.folder;
     EDGESPLAT_TRY(start.maps, load_maps(store_folder, options.config.max_robots));
     start.recorder = &recorder.emplace(recorder_config(options.config.store, store_folder), registry, clock);
   }
+  map::Epoch known;
+  for (const store::StoredMap& map : start.maps) known = std::max(known, map.epoch);
+  EDGESPLAT_TRY(start.epoch, stream::next_epoch(folder / "epoch", known));
+  const map::Epoch epoch = start.epoch;
   app::Server server(options.config, std::move(start), *transport, registry, clock);
   EDGESPLAT_LOG_INFO("server", "ready", "epoch", epoch.value, "interface", options.config.link.interface,
                      "domain", options.config.link.domain, "out", folder.string());

@@ -4,6 +4,7 @@
 
 #include "common/io/atomic_file.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <limits>
@@ -28,12 +29,12 @@ Result<std::uint32_t> parse(const std::string& text, const std::filesystem::path
 
 }  // namespace
 
-Result<map::Epoch> next_epoch(const std::filesystem::path& path) {
-  map::Epoch epoch{1};
+Result<map::Epoch> next_epoch(const std::filesystem::path& path, map::Epoch known) {
+  map::Epoch epoch{known.value + 1};
   const auto text = io::read_text_file(path, kMaxFile_bytes);
   if (text) {
     EDGESPLAT_TRY(const std::uint32_t last, parse(*text, path));
-    epoch.value = last + 1;
+    epoch.value = std::max(last, known.value) + 1;
   } else if (text.error().code != Errc::kNotFound) {
     return tl::unexpected<Error>(text.error());
   }

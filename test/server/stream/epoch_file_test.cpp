@@ -46,5 +46,13 @@ TEST(MapUuid, IsOfVersionFourAndNeverTheSame) {
   EXPECT_NE(a, make_map_uuid());
 }
 
+TEST(EpochFile, ALostFileDoesNotReuseAnEpochThatAMapKnows) {
+  const test::TempDir folder;
+  const auto path = folder.path() / "epoch";
+  EXPECT_EQ(next_epoch(path, map::Epoch{7})->value, 8U);
+  EXPECT_EQ(next_epoch(path, map::Epoch{7})->value, 9U);  // the file knows more
+  EXPECT_EQ(next_epoch(path)->value, 10U);
+}
+
 }  // namespace
 }  // namespace edgesplat::stream
