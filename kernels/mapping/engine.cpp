@@ -121,10 +121,10 @@ TrainingView MappingEngine::prepare(const StoredView& view) {
   training.colour = colour_;
   training.depth_m = depth_m_;
   training.weight = view.undistorter->seen();
-  if (!view.moving.empty()) {
+  if (!view.ignored.empty()) {
     weight_.assign(training.weight.begin(), training.weight.end());
     for (std::size_t pixel = 0; pixel < weight_.size(); ++pixel) {
-      if (view.moving[pixel]) weight_[pixel] = 0.0F;
+      if (view.ignored[pixel]) weight_[pixel] = 0.0F;
     }
     training.weight = weight_;
   }

@@ -11,6 +11,7 @@ namespace edgesplat::mapping {
 namespace {
 
 constexpr float kNearest_m = 0.1F;
+constexpr int kSkyMargin_px = 8;
 constexpr double kLeastMark_px = 2.0;
 constexpr double kMostMark_px = 24.0;
 
@@ -43,6 +44,28 @@ std::vector<SparseDepth> project_depths(std::span<const map::ColouredPoint> poin
   return depths;
 }
 
+void ignore_above_measured(int margin_px, StoredView& view) {
+  constexpr std::uint32_t kStretch_px = 8;
+  const auto width = static_cast<std::uint32_t>(view.camera().width_px);
+  const auto height = static_cast<std::uint32_t>(view.camera().height_px);
+  const std::uint32_t stretches = (width + kStretch_px - 1) / kStretch_px;
+  std::vector<std::uint32_t> highest(stretches, height);  // row; height: none
+  for (const SparseDepth& d : view.depths) {
+    std::uint32_t& row = highest[d.pixel % width / kStretch_px];
+    row = std::min(row, d.pixel / width);
+  }
+  for (std::uint32_t x = 0; x < width; ++x) {
+    const std::uint32_t stretch = x / kStretch_px;
+    const auto first = highest.begin() + (stretch > 2 ? stretch - 2 : 0);
+    const std::uint32_t top = *std::min_element(first, highest.begin() + std::min(stretches, stretch + 3));
+    if (top == height) continue;
+    if (view.ignored.empty()) view.ignored.resize(std::size_t{width} * height, false);
+    for (std::uint32_t y = 0; y + static_cast<std::uint32_t>(margin_px) < top; ++y) {
+      view.ignored[std::size_t{y} * width + x] = true;
+    }
+  }
+}
+
 void mark_moving(const Eigen::Vector3f& p_in_map_m, float radius_m, StoredView& view) {
   const geometry::CameraModel& camera = view.camera();
   const Eigen::Vector3d p = view.map_from_camera.inverse() * p_in_map_m.cast<double>();
@@ -55,11 +78,11 @@ void mark_moving(const Eigen::Vector3f& p_in_map_m, float radius_m, StoredView& 
     return;
   const auto from = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach_px))); };
   const auto to = [&](double at, int size) { return std::min(size - 1, static_cast<int>(at + reach_px)); };
-  if (view.moving.empty()) view.moving.resize(view.picture.values.size() / 3, false);
+  if (view.ignored.empty()) view.ignored.resize(view.picture.values.size() / 3, false);
   for (int y = from(v); y <= to(v, camera.height_px); ++y) {
     for (int x = from(u); x <= to(u, camera.width_px); ++x) {
-      view.moving[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
-                  static_cast<std::size_t>(x)] = true;
+      view.ignored[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
+                   static_cast<std::size_t>(x)] = true;
     }
   }
 }
@@ -80,6 +103,7 @@ Result<StoredView> make_view(const map::Keyframe& keyframe, const geometry::Rigi
   view.picture = undistorter->apply(picture);
   view.depths = project_depths(keyframe.points_in_body, keyframe.camera->body_from_camera.inverse(), model);
   view.undistorter = std::move(undistorter);
+  ignore_above_measured(kSkyMargin_px, view);
   return view;
 }
 

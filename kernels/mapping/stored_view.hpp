@@ -30,7 +30,7 @@ struct StoredView {
   std::shared_ptr<const image::Undistorter> undistorter;  ///< shared by all views of one camera
   sensor::ImageRgb8 picture;
   bool exposure_known = false;      ///< the picture has the brightness of all others
-  std::vector<bool> moving;         ///< [H,W] pixels that showed what is gone now; empty: none
+  std::vector<bool> ignored;        ///< [H,W] pixels not to train on; empty: all count
   std::vector<SparseDepth> depths;  ///< in the order of the pixels, one a pixel: the nearest
 
   [[nodiscard]] const geometry::CameraModel& camera() const { return undistorter->model(); }
@@ -43,6 +43,11 @@ struct StoredView {
 [[nodiscard]] std::vector<SparseDepth> project_depths(std::span<const map::ColouredPoint> points_in_body,
                                                       const geometry::RigidTransform& camera_from_body,
                                                       const geometry::CameraModel& pinhole);
+
+/// Ignores what lies over the highest measurement of each stretch of columns (8 px, and two to each side),
+/// with `margin_px` to spare: the sky and whatever rises out of the LiDAR's sight. Without a Gaussian there,
+/// training would draw the wrong ones over it. Columns without a measurement count fully.
+void ignore_above_measured(int margin_px, StoredView& view);
 
 /// Notes that the pixels around a point of the map showed something that moved: not to be trained on.
 void mark_moving(const Eigen::Vector3f& p_in_map_m, float radius_m, StoredView& view);

@@ -65,7 +65,10 @@ Status run(int argc, char** argv) {
   EDGESPLAT_TRY_STATUS(folder.write_map_at_input_end(cloud));
   std::filesystem::create_directories(out / "server");
   EDGESPLAT_TRY_STATUS(io::write_gaussians_ply(out / "server" / "seeded.ply", builder->engine().seeds()));
-  EDGESPLAT_TRY(const nlohmann::json scores, desk::score_run({out, argv[1], 24}));
+  desk::ScoreOptions scoring;
+  scoring.run = out;
+  scoring.input = argv[1];
+  EDGESPLAT_TRY(const nlohmann::json scores, desk::score_run(scoring));
   std::printf(
       "%llu steps, %.1f ms each, %zu Gaussians (%zu seeded, %llu gone): PSNR %.2f dB, SSIM %.3f, seeded %.2f "
       "dB, "
