@@ -20,6 +20,7 @@ p{margin:.5rem 0;color:var(--soft)}
 .card span{display:block;color:var(--soft);font-size:.8rem}.card b{font-size:1.1rem;font-weight:600}
 .grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,420px),1fr));gap:.8rem;align-items:start}
 .grid.thirds{grid-template-columns:repeat(auto-fit,minmax(min(100%,320px),1fr))}
+.grid.quarters{grid-template-columns:repeat(auto-fit,minmax(min(100%,230px),1fr))}
 figure{margin:0}figure img{width:100%;display:block;border-radius:6px}figcaption{font-size:.8rem;color:var(--soft)}
 svg{width:100%;height:auto;display:block;font:12px system-ui,sans-serif}
 svg text{fill:var(--text)}svg .title{font-weight:600;font-size:13px}
@@ -71,7 +72,7 @@ std::string html_grid(const std::vector<std::string>& pieces) {
 }
 
 std::string html_picture_grid(const std::vector<std::string>& pieces) {
-  return grid_of("grid thirds", pieces);
+  return grid_of(pieces.size() % 4 == 0 ? "grid quarters" : "grid thirds", pieces);
 }
 
 std::string html_picture(std::string_view uri, std::string_view caption) {
