@@ -3,6 +3,7 @@
 #include "kernels/mapping/engine.hpp"
 
 #include "common/base/check.hpp"
+#include "common/sensor/image_values.hpp"
 #include "kernels/splat/render.hpp"
 
 #include <algorithm>
@@ -109,9 +110,7 @@ bool MappingEngine::has_work() const {
 }
 
 TrainingView MappingEngine::prepare(const StoredView& view) {
-  colour_.resize(view.picture.values.size());
-  std::transform(view.picture.values.begin(), view.picture.values.end(), colour_.begin(),
-                 [](std::uint8_t v) { return static_cast<float>(v) * (1.0F / 255.0F); });
+  sensor::to_unit_floats(view.picture, colour_);
   depth_m_.assign(colour_.size() / 3, 0.0F);
   for (const SparseDepth& d : view.depths) depth_m_[d.pixel] = d.depth_m;
   TrainingView training;

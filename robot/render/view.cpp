@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/render/view.hpp"
 
+#include "common/sensor/image_values.hpp"
 #include "kernels/splat/render.hpp"
-
-#include <algorithm>
-#include <cmath>
 
 namespace edgesplat::render {
 namespace {
@@ -26,11 +24,7 @@ Result<View> draw_view(const gaussian::GaussianCloud& cloud, const geometry::Cam
                 splat::render(core::Backend::kCpu, splat::spans_of(cloud), view, {},
                               {colour.values, out.depth_m.values, alpha.values}));
   (void)stats;
-  out.picture = sensor::ImageRgb8(camera.width_px, camera.height_px);
-  for (std::size_t i = 0; i < colour.values.size(); ++i) {
-    out.picture.values[i] =
-        static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(colour.values[i], 0.0F, 1.0F)));
-  }
+  out.picture = sensor::to_rgb8(colour.values, camera.width_px, camera.height_px);
   for (std::size_t i = 0; i < alpha.values.size(); ++i) {
     out.depth_m.values[i] =
         alpha.values[i] > kLeastAlphaForDepth ? out.depth_m.values[i] / alpha.values[i] : 0.0F;

@@ -3,23 +3,11 @@
 #include "tools/desk/render_set.hpp"
 
 #include "common/io/image_file.hpp"
+#include "common/sensor/image_values.hpp"
 #include "kernels/image/undistort.hpp"
 #include "kernels/splat/render.hpp"
 
-#include <algorithm>
-
 namespace edgesplat::desk {
-namespace {
-
-sensor::ImageRgb8 to_rgb8(std::span<const float> colour, int width_px, int height_px) {
-  sensor::ImageRgb8 picture(width_px, height_px);
-  for (std::size_t i = 0; i < colour.size(); ++i) {
-    picture.values[i] = static_cast<std::uint8_t>(std::clamp(colour[i], 0.0F, 1.0F) * 255.0F + 0.5F);
-  }
-  return picture;
-}
-
-}  // namespace
 
 Result<RenderedView> render_view(const gaussian::GaussianCloud& map, const io::PosedCamera& camera,
                                  const RenderSettings& settings, const Clock& clock) {
@@ -33,7 +21,7 @@ Result<RenderedView> render_view(const gaussian::GaussianCloud& map, const io::P
   EDGESPLAT_TRY(const auto stats, splat::render(core::Backend::kCpu, splat::spans_of(map), view, options,
                                                 {colour, depth, alpha}));
   const double render_ms = to_seconds(clock.now() - begin) * 1e3;
-  return RenderedView{to_rgb8(colour, model.width_px, model.height_px), render_ms, stats.visible};
+  return RenderedView{sensor::to_rgb8(colour, model.width_px, model.height_px), render_ms, stats.visible};
 }
 
 Result<std::vector<RenderedFile>> render_set(const gaussian::GaussianCloud& map, const io::CameraSet& cameras,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/desk/training.hpp"
 
+#include "common/sensor/image_values.hpp"
 #include "kernels/mapping/densify.hpp"
 #include "kernels/mapping/optimiser.hpp"
 #include "tools/desk/scene_start.hpp"
@@ -105,10 +106,7 @@ class Training {
     camera_from_map.translation_m *= scale_;
     mapping::TrainingView view;
     EDGESPLAT_TRY(view.view, splat::View::from(picture.camera, camera_from_map));
-    colour_.resize(picture.picture.values.size());
-    for (std::size_t i = 0; i < colour_.size(); ++i) {
-      colour_[i] = static_cast<float>(picture.picture.values[i]) / 255.0F;
-    }
+    sensor::to_unit_floats(picture.picture, colour_);
     view.colour = colour_;
     view.weight = picture.weight;
     if (options_.learn_exposure) view.exposure_key = static_cast<std::uint32_t>(index);

@@ -2,18 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/quality/picture_score.hpp"
 
+#include "common/sensor/image_values.hpp"
 #include "kernels/train/image_measures.hpp"
 
 #include <vector>
 
 namespace edgesplat::quality {
 namespace {
-
-std::vector<float> to_floats(const sensor::ImageRgb8& picture) {
-  std::vector<float> values(picture.values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(picture.values[i]) / 255.0F;
-  return values;
-}
 
 /// LPIPS knows no weights: there the drawn picture takes over the real one.
 sensor::ImageRgb8 equal_where_nothing_counts(sensor::ImageRgb8 drawn, const sensor::ImageRgb8& real,
@@ -29,7 +24,9 @@ sensor::ImageRgb8 equal_where_nothing_counts(sensor::ImageRgb8 drawn, const sens
 
 Result<PictureScore> score_picture(const sensor::ImageRgb8& drawn, const sensor::ImageRgb8& real,
                                    std::span<const float> weight, Lpips* lpips) {
-  const auto a = to_floats(drawn), b = to_floats(real);
+  std::vector<float> a, b;
+  sensor::to_unit_floats(drawn, a);
+  sensor::to_unit_floats(real, b);
   const train::ColourPair pair{drawn.width_px, drawn.height_px, a, b, weight};
   if (!pair.consistent() || real.width_px != drawn.width_px) {
     return fail(Errc::kInvalidArgument, "pictures of different sizes cannot be compared");
