@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/mapping/seen_through.hpp"
 
+#include "kernels/mapping/pixel_projector.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,28 +47,16 @@ class DepthPicture {
 
 std::vector<std::uint32_t> SeenThrough::take(const StoredView& view, const gaussian::GaussianCloud& cloud) {
   const DepthPicture picture(view);
-  const geometry::RigidTransform camera_from_map = view.map_from_camera.inverse();
-  const Eigen::Matrix3f rotation = camera_from_map.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Vector3f translation = camera_from_map.translation_m.cast<float>();
-  const geometry::CameraModel& camera = view.camera();
-  const auto fx = static_cast<float>(camera.fx_px), fy = static_cast<float>(camera.fy_px);
-  const auto cx = static_cast<float>(camera.cx_px), cy = static_cast<float>(camera.cy_px);
+  const PixelProjector projector(view.map_from_camera.inverse(), view.camera());
   std::vector<std::uint32_t> gone;
   if (votes_.size() > cloud.size()) votes_.clear();  // mostly of Gaussians that went for other reasons
   for (std::size_t row = 0; row < cloud.size(); ++row) {
     if (cloud.anchors[row].keyframe == view.keyframe.value) continue;
-    const Eigen::Vector3f p =
-        rotation * Eigen::Map<const Eigen::Vector3f>(&cloud.means_m[3 * row]) + translation;
-    if (!(p.z() > kNearest_m)) continue;
-    const float u = fx * p.x() / p.z() + cx + 0.5F;
-    const float v = fy * p.y() / p.z() + cy + 0.5F;
-    if (!(u >= 0.0F && v >= 0.0F && u < static_cast<float>(camera.width_px) &&
-          v < static_cast<float>(camera.height_px))) {
-      continue;
-    }
-    const float beyond_m = p.z() + options_.margin_m + options_.margin_per_range * p.z();
-    const int rays =
-        picture.rays_beyond(static_cast<int>(u), static_cast<int>(v), options_.reach_px, beyond_m);
+    const auto hit =
+        projector.project(Eigen::Map<const Eigen::Vector3f>(&cloud.means_m[3 * row]), kNearest_m);
+    if (!hit) continue;
+    const float beyond_m = hit->depth_m + options_.margin_m + options_.margin_per_range * hit->depth_m;
+    const int rays = picture.rays_beyond(hit->x, hit->y, options_.reach_px, beyond_m);
     if (rays < options_.least_rays) continue;
     if (++votes_[cloud.ids[row]] < options_.votes) continue;
     votes_.erase(cloud.ids[row]);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/mapping/stored_view.hpp"
 
+#include "kernels/mapping/pixel_projector.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -20,22 +22,15 @@ constexpr double kMostMark_px = 24.0;
 std::vector<SparseDepth> project_depths(std::span<const map::ColouredPoint> points_in_body,
                                         const geometry::RigidTransform& camera_from_body,
                                         const geometry::CameraModel& pinhole) {
-  const Eigen::Matrix3f rotation = camera_from_body.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Vector3f translation = camera_from_body.translation_m.cast<float>();
-  const auto fx = static_cast<float>(pinhole.fx_px), fy = static_cast<float>(pinhole.fy_px);
-  const auto cx = static_cast<float>(pinhole.cx_px), cy = static_cast<float>(pinhole.cy_px);
-  const auto width = static_cast<float>(pinhole.width_px), height = static_cast<float>(pinhole.height_px);
+  const PixelProjector projector(camera_from_body, pinhole);
   std::vector<float> nearest(
       static_cast<std::size_t>(pinhole.width_px) * static_cast<std::size_t>(pinhole.height_px), 0.0F);
   for (const map::ColouredPoint& point : points_in_body) {
-    const Eigen::Vector3f p = rotation * point.p_in_body_m + translation;
-    if (!(p.z() > kNearest_m)) continue;
-    const float u = fx * p.x() / p.z() + cx + 0.5F;  // pixel centres lie at whole numbers
-    const float v = fy * p.y() / p.z() + cy + 0.5F;
-    if (!(u >= 0.0F && v >= 0.0F && u < width && v < height)) continue;
-    float& depth = nearest[static_cast<std::size_t>(v) * static_cast<std::size_t>(pinhole.width_px) +
-                           static_cast<std::size_t>(u)];
-    if (depth == 0.0F || p.z() < depth) depth = p.z();
+    const auto hit = projector.project(point.p_in_body_m, kNearest_m);
+    if (!hit) continue;
+    float& depth = nearest[static_cast<std::size_t>(hit->y) * static_cast<std::size_t>(pinhole.width_px) +
+                           static_cast<std::size_t>(hit->x)];
+    if (depth == 0.0F || hit->depth_m < depth) depth = hit->depth_m;
   }
   std::vector<SparseDepth> depths;
   for (std::size_t pixel = 0; pixel < nearest.size(); ++pixel) {
