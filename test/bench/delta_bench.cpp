@@ -69,7 +69,8 @@ void add(benchmark::State& state) {
   state.counters["bytes_each"] = bytes_each;
 }
 
-void update(benchmark::State& state) {
+/// Publishes an optimised map again and again, each time within `budget_bytes`.
+void publish_changes(benchmark::State& state, std::size_t budget_bytes) {
   auto cloud = wall(static_cast<std::size_t>(state.range(0)));
   const auto rows = all_rows(cloud);
   DeltaStream stream({});
@@ -79,7 +80,7 @@ void update(benchmark::State& state) {
     state.PauseTiming();
     optimise(cloud, random);
     state.ResumeTiming();
-    benchmark::DoNotOptimize(stream.publish(cloud, rows, {}, kPlenty_bytes));
+    benchmark::DoNotOptimize(stream.publish(cloud, rows, {}, budget_bytes));
   }
   const auto counters = stream.counters();
   state.SetItemsProcessed(static_cast<std::int64_t>(counters.updated));
@@ -87,21 +88,12 @@ void update(benchmark::State& state) {
       static_cast<double>(counters.update_bytes) / static_cast<double>(counters.updated);
 }
 
+void update(benchmark::State& state) {
+  publish_changes(state, kPlenty_bytes);
+}
+
 void update_within_budget(benchmark::State& state) {
-  auto cloud = wall(static_cast<std::size_t>(state.range(0)));
-  const auto rows = all_rows(cloud);
-  DeltaStream stream({});
-  (void)stream.publish(cloud, rows, {}, kPlenty_bytes);
-  test::Random random(2);
-  for (auto _ : state) {
-    state.PauseTiming();
-    optimise(cloud, random);
-    state.ResumeTiming();
-    benchmark::DoNotOptimize(stream.publish(cloud, rows, {}, 30000));
-  }
-  const auto counters = stream.counters();
-  state.counters["bytes_each"] =
-      static_cast<double>(counters.update_bytes) / static_cast<double>(counters.updated);
+  publish_changes(state, 30000);
 }
 
 void apply(benchmark::State& state) {

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "server/app/server.hpp"
-#include "test/integration/robot_end.hpp"
+#include "test/integration/server_link_fixture.hpp"
 #include "test/support/child_process.hpp"
-#include "test/support/map_samples.hpp"
-#include "test/support/temp_dir.hpp"
-#include "test/support/test_domain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,36 +18,14 @@ using test::ChildProcess;
 using test::RobotEnd;
 using namespace std::chrono_literals;
 
-class RobotServerLinkTest : public ::testing::Test {
+class RobotServerLinkTest : public test::ServerLinkFixture {
  protected:
-  void SetUp() override {
-    link::LinkConfig config;
-    config.domain = test::test_domain();
-    auto domain = link::DdsDomain::open(config);
-    ASSERT_TRUE(domain.has_value()) << domain.error().context;
-    domain_ = *domain;
-  }
-  std::vector<std::string> server_command() {
-    return {EDGESPLAT_BINARY_DIR "/bin/edgesplat-server", "--domain", std::to_string(test::test_domain()),
-            "--out", folder_.path().string()};
-  }
-  /// Each shows a wall of its own, so each makes one delta.
-  static void submit_walls(RobotEnd& robot, std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t id = first; id < first + count; ++id) {
-      auto keyframe = test::wall_keyframe(id, 3000);
-      keyframe.odom_from_body.translation_m.y() = 5.0 * id;
-      (void)robot.uplink().submit(std::make_shared<const map::Keyframe>(keyframe));
-    }
-  }
   std::string metrics() {
     std::ifstream file(folder_.path() / "server" / "metrics.json");
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();
   }
-
-  test::TempDir folder_;
-  std::shared_ptr<link::DdsDomain> domain_;
 };
 
 TEST_F(RobotServerLinkTest, BothEndsHoldTheSameMap) {

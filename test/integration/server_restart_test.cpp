@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "server/store/map_file.hpp"
-#include "test/integration/robot_end.hpp"
+#include "test/integration/server_link_fixture.hpp"
 #include "test/support/child_process.hpp"
-#include "test/support/map_samples.hpp"
-#include "test/support/temp_dir.hpp"
-#include "test/support/test_domain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,25 +18,11 @@ using test::RobotEnd;
 using namespace std::chrono_literals;
 
 /// A server that is killed and started again in the same folder.
-class ServerRestartTest : public ::testing::Test {
+class ServerRestartTest : public test::ServerLinkFixture {
  protected:
-  void SetUp() override {
-    link::LinkConfig config;
-    config.domain = test::test_domain();
-    auto domain = link::DdsDomain::open(config);
-    ASSERT_TRUE(domain.has_value()) << domain.error().context;
-    domain_ = *domain;
-  }
   std::unique_ptr<ChildProcess> start_server() {
     return std::make_unique<ChildProcess>(
-        std::vector<std::string>{EDGESPLAT_BINARY_DIR "/bin/edgesplat-server", "--domain",
-                                 std::to_string(test::test_domain()), "--out", folder_.path().string(),
-                                 "--set", "store.save_period_s=0.1", "--set", "optimise.enabled=false"});
-  }
-  static void submit_wall(RobotEnd& robot, std::uint32_t id) {
-    auto keyframe = test::wall_keyframe(id, 3000);
-    keyframe.odom_from_body.translation_m.y() = 5.0 * id;
-    (void)robot.uplink().submit(std::make_shared<const map::Keyframe>(keyframe));
+        server_command({"--set", "store.save_period_s=0.1", "--set", "optimise.enabled=false"}));
   }
   /// As the robot's program does: says who it is and what it has, until `done`.
   static bool speak_until(RobotEnd& robot, const std::function<bool()>& done) {
@@ -60,15 +43,12 @@ class ServerRestartTest : public ::testing::Test {
       if (file.path().extension() == ".map") files.push_back(file.path());
     return files;
   }
-
-  test::TempDir folder_;
-  std::shared_ptr<link::DdsDomain> domain_;
 };
 
 TEST_F(ServerRestartTest, AKilledServerGoesOnWithTheMapOfARobotThatStillRuns) {
   auto server = start_server();
   RobotEnd robot(domain_);
-  for (std::uint32_t id = 0; id < 5; ++id) submit_wall(robot, id);
+  submit_walls(robot, 0, 5);
   ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 5, 60s));
   const auto before = robot.map().counters().gaussians;
   const auto hash = robot.map().map_hash();
@@ -94,8 +74,8 @@ TEST_F(ServerRestartTest, AKilledServerGoesOnWithTheMapOfARobotThatStillRuns) {
 
   // What it covers is not seeded again; a place of its own is.
   const auto at = robot.map().position().seq;
-  submit_wall(robot, 3);
-  submit_wall(robot, 20);
+  submit_walls(robot, 3, 1);
+  submit_walls(robot, 20, 1);
   ASSERT_TRUE(robot.wait_for_delta(map::Epoch{2}, at + 1, 60s));
   EXPECT_GT(robot.map().counters().gaussians, before + before / 10);
   EXPECT_LT(robot.map().counters().gaussians, before + before / 4);
@@ -108,7 +88,7 @@ TEST_F(ServerRestartTest, ARobotThatBeganAnewGetsAMapOfItsOwnAndTheOldFileStays)
   auto server = start_server();
   {
     RobotEnd robot(domain_);
-    submit_wall(robot, 0);
+    submit_walls(robot, 0, 1);
     ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 1, 60s));
   }
   server->signal(SIGTERM);
@@ -116,7 +96,7 @@ TEST_F(ServerRestartTest, ARobotThatBeganAnewGetsAMapOfItsOwnAndTheOldFileStays)
   ASSERT_EQ(map_files().size(), 1U);
   server = start_server();
   RobotEnd robot(domain_);
-  submit_wall(robot, 7);
+  submit_walls(robot, 7, 1);
   ASSERT_TRUE(robot.wait_for_delta(map::Epoch{2}, 1, 60s));
   const auto snapshot = robot.map().snapshot();
   for (std::size_t row = 0; row < snapshot->size(); ++row)
@@ -129,14 +109,14 @@ TEST_F(ServerRestartTest, ARobotThatBeganAnewGetsAMapOfItsOwnAndTheOldFileStays)
 TEST_F(ServerRestartTest, ADamagedMapFileNeverStopsTheServer) {
   auto server = start_server();
   RobotEnd robot(domain_);
-  submit_wall(robot, 0);
+  submit_walls(robot, 0, 1);
   ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 1, 60s));
   server->signal(SIGTERM);
   ASSERT_EQ(server->wait(20s), 0);
   ASSERT_EQ(map_files().size(), 1U);
   std::filesystem::resize_file(map_files()[0], 20);
   server = start_server();
-  submit_wall(robot, 1);
+  submit_walls(robot, 1, 1);
   ASSERT_TRUE(robot.wait_for_delta(map::Epoch{2}, 1, 60s));
   server->signal(SIGTERM);
   EXPECT_EQ(server->wait(20s), 0);
