@@ -109,7 +109,7 @@ void MapState::apply_body(const ReposeBody& body) {
   for (std::size_t row = 0; row < size(); ++row) {
     const ChunkId chunk_before = rows_.chunks[row];
     const std::uint64_t digest_before = digest(row);
-    if (!repose.move(rows_.chunks[row], rows_.channels[row], rows_.anchors[row])) continue;
+    if (!repose.move(rows_, row)) continue;
     hash_.remove(chunk_before, digest_before);
     hash_.add(rows_.chunks[row], digest(row));
   }

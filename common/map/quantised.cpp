@@ -72,16 +72,16 @@ bool all_finite(std::span<const float> values) {
   return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
 }
 
-std::int8_t quantise_sh(float value) {
-  return static_cast<std::int8_t>(std::clamp(std::floor(value / kShStep + 0.5F), -127.0F, 127.0F));
-}
-
 void copy_n_values(const std::vector<std::int8_t>& from, std::size_t row, std::size_t each,
                    std::vector<std::int8_t>::iterator to) {
   std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(row * each), each, to);
 }
 
 }  // namespace
+
+std::int8_t round_sh(double steps) {
+  return static_cast<std::int8_t>(std::clamp(std::floor(steps + 0.5), -127.0, 127.0));
+}
 
 DecodedPose decode_pose(const ChunkId& chunk, const Channels& channels) {
   DecodedPose pose{};
@@ -163,7 +163,7 @@ void append_quantised(const gaussian::GaussianCloud& cloud, std::size_t row, con
   rows.chunks.push_back(chunk);
   rows.channels.push_back(channels);
   rows.anchors.push_back(cloud.anchors[row]);
-  for (std::size_t i = 3; i < cloud.sh_floats_each(); ++i) rows.sh_rest.push_back(quantise_sh(sh[i]));
+  for (std::size_t i = 3; i < cloud.sh_floats_each(); ++i) rows.sh_rest.push_back(round_sh(static_cast<double>(sh[i]) / kShStep));
 }
 
 gaussian::GaussianCloud dequantise(const QuantisedRows& rows) {

@@ -49,6 +49,8 @@ inline constexpr std::array<ChannelLayout, 6> kChannelLayouts = {{{Field::kPosit
 inline constexpr double kPositionStep_m = 12.0 / 65536.0;
 /// Step of the SH coefficients above degree 0; they reach 127 steps either way.
 inline constexpr float kShStep = 1.0F / 64.0F;
+/// The nearest of those steps.
+[[nodiscard]] std::int8_t round_sh(double steps);
 
 /// Where and how a Gaussian lies, as its channels say: every combination of integers is a valid pose.
 struct DecodedPose {

@@ -53,20 +53,31 @@ Eigen::Vector3f as_point(const Vec3& p_m) {
   return {static_cast<float>(p_m[0]), static_cast<float>(p_m[1]), static_cast<float>(p_m[2])};
 }
 
+/// Turns what `sh` holds above degree 0, [(degree+1)^2-1,3].
+template <typename T, typename Round>
+void turn_colours(const gaussian::ShRotation& rotation, int degree, T* sh, Round&& round) {
+  const auto count = static_cast<std::size_t>((degree + 1) * (degree + 1) - 1);
+  for (std::size_t colour = 0; count > 0 && colour < 3; ++colour) {
+    gaussian::ShRotation::Coefficients values{};
+    for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<double>(sh[3 * i + colour]);
+    values = rotation.turned(degree, values);
+    for (std::size_t i = 0; i < count; ++i) sh[3 * i + colour] = round(values[i]);
+  }
+}
+
 }  // namespace
 
 Repose::Repose(std::span<const PoseCorrection> corrections) {
   for (const PoseCorrection& correction : corrections) {
     const Quat old = quat_of(correction.old_map_from_body);
-    Motion motion{};
-    motion.version = correction.version;
-    motion.quat_xyzw =
+    const Quat turn =
         normalised(product(quat_of(correction.new_map_from_body), {-old[0], -old[1], -old[2], old[3]}));
-    motion.rotation = matrix(motion.quat_xyzw);
-    const Vec3 turned = rotated(motion.rotation, translation_of(correction.old_map_from_body));
-    const Vec3 to = translation_of(correction.new_map_from_body);
-    for (std::size_t k = 0; k < 3; ++k) motion.translation_m[k] = to[k] - turned[k];
-    motions_.insert_or_assign(correction.keyframe, motion);
+    const auto rotation = matrix(turn);
+    const Vec3 turned = rotated(rotation, translation_of(correction.old_map_from_body));
+    Vec3 translation_m = translation_of(correction.new_map_from_body);
+    for (std::size_t k = 0; k < 3; ++k) translation_m[k] -= turned[k];
+    motions_.insert_or_assign(correction.keyframe, Motion{correction.version, turn, rotation, translation_m,
+                                                          gaussian::ShRotation(rotation)});
   }
 }
 
@@ -83,14 +94,19 @@ const Repose::Motion* Repose::motion_of(const gaussian::Anchor& anchor) const {
   return found != motions_.end() && anchor.pose_version < found->second.version ? &found->second : nullptr;
 }
 
-bool Repose::move(ChunkId& chunk, Channels& channels, gaussian::Anchor& anchor) const {
+bool Repose::move(QuantisedRows& rows, std::size_t row) const {
+  gaussian::Anchor& anchor = rows.anchors[row];
   const Motion* motion = motion_of(anchor);
   if (motion == nullptr) return false;
+  ChunkId& chunk = rows.chunks[row];
+  Channels& channels = rows.channels[row];
   const DecodedPose moved = *motion * decode_pose(chunk, channels);
   anchor.pose_version = motion->version;
   if (!in_map(moved.mean_m)) return true;  // a correction out of this world: it stays where it was
   chunk = chunk_after_move(chunk, as_point(moved.mean_m));
   encode_pose(chunk, moved, channels);
+  std::int8_t* sh = rows.sh_rest.data() + rows.sh_rest_each() * row;
+  turn_colours(motion->sh, rows.sh_degree, sh, [](double steps) { return round_sh(steps); });
   return true;
 }
 
@@ -105,6 +121,8 @@ bool Repose::move(gaussian::GaussianCloud& cloud, std::size_t row) const {
   if (!in_map(moved.mean_m)) return true;
   for (std::size_t k = 0; k < 3; ++k) mean_m[k] = static_cast<float>(moved.mean_m[k]);
   for (std::size_t k = 0; k < 4; ++k) quat[k] = static_cast<float>(moved.quat_xyzw[k]);
+  float* sh_rest = cloud.sh.data() + cloud.sh_floats_each() * row + 3;
+  turn_colours(motion->sh, cloud.sh_degree, sh_rest, [](double value) { return static_cast<float>(value); });
   return true;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/gaussian/sh_rotation.hpp"
 #include "common/map/delta.hpp"
 
 #include <span>
@@ -15,10 +16,11 @@ class Repose {
  public:
   explicit Repose(std::span<const PoseCorrection> corrections);
 
-  /// Moves a quantised Gaussian, whose anchor gets the new version; chunk as of chunk_after_move. False, and
-  /// nothing changes, where its anchor is not among the corrections or has their version or a later one.
-  bool move(ChunkId& chunk, Channels& channels, gaussian::Anchor& anchor) const;
-  /// The same for the server's floats: mean and quaternion.
+  /// Moves a quantised Gaussian and turns its colours with it; its anchor gets the new version, its chunk is
+  /// as of chunk_after_move. False, and nothing changes, where its anchor is not among the corrections or has
+  /// their version or a later one.
+  bool move(QuantisedRows& rows, std::size_t row) const;
+  /// The same for the server's floats.
   bool move(gaussian::GaussianCloud& cloud, std::size_t row) const;
 
  private:
@@ -27,6 +29,7 @@ class Repose {
     std::array<double, 4> quat_xyzw;  ///< new_from_old
     std::array<double, 9> rotation;   ///< the same, row-major
     std::array<double, 3> translation_m;
+    gaussian::ShRotation sh;
 
     [[nodiscard]] DecodedPose operator*(const DecodedPose& pose) const;
   };

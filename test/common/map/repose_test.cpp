@@ -3,6 +3,7 @@
 #include "common/map/repose.hpp"
 
 #include "common/map/map_state.hpp"
+#include "kernels/splat/sh_math.hpp"
 #include "test/common/map/delta_samples.hpp"
 #include "test/support/map_samples.hpp"
 #include "test/support/random.hpp"
@@ -14,6 +15,17 @@ namespace {
 
 geometry::RigidTransform turned(double yaw_rad, const Eigen::Vector3d& translation_m) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())), translation_m};
+}
+
+/// One colour of a Gaussian seen along a direction.
+double seen_colour(const gaussian::GaussianCloud& cloud, std::size_t row, std::size_t colour,
+                   const Eigen::Vector3d& along) {
+  std::array<double, 16> basis{};
+  splat::sh_basis(cloud.sh_degree, along.x(), along.y(), along.z(), basis.data());
+  const float* sh = cloud.sh.data() + cloud.sh_floats_each() * row + colour;
+  double sum = 0.0;
+  for (std::size_t i = 0; 3 * i < cloud.sh_floats_each(); ++i) sum += basis[i] * sh[3 * i];
+  return sum;
 }
 
 TEST(Repose, MovesByNewTimesOldInverse) {
@@ -46,7 +58,7 @@ TEST(Repose, QuantisedGaussiansMoveLikeFloatsWithinAStep) {
   const Repose repose(std::span(&correction, 1));
   for (std::size_t row = 0; row < 500; ++row) {
     ASSERT_TRUE(repose.move(cloud, row));
-    ASSERT_TRUE(repose.move(rows.chunks[row], rows.channels[row], rows.anchors[row]));
+    ASSERT_TRUE(repose.move(rows, row));
   }
   const auto moved = dequantise(rows);
   for (std::size_t i = 0; i < moved.means_m.size(); ++i)
@@ -74,6 +86,31 @@ TEST(Repose, HappensExactlyOnceForEachVersion) {
   EXPECT_NE(state.hash(), once);
 }
 
+// Seen from where it was seen before, relative to it, a Gaussian that turned must look as before.
+TEST(Repose, TheColoursOfAllDirectionsTurnAlong) {
+  for (int degree = 1; degree <= 3; ++degree) {
+    auto rows = test::random_rows(100, 7, degree);
+    auto cloud = dequantise(rows);
+    const auto before = cloud;
+    const PoseCorrection correction{3, 1, turned(0.4, {1, 2, 0}), turned(2.0, {3, 1, 1})};
+    const Repose repose(std::span(&correction, 1));
+    const auto turn = (correction.new_map_from_body * correction.old_map_from_body.inverse()).rotation;
+    const Eigen::Vector3d seen_along = Eigen::Vector3d(0.3, -0.5, 0.8).normalized();
+    for (std::size_t row = 0; row < 100; ++row) {
+      ASSERT_TRUE(repose.move(cloud, row));
+      ASSERT_TRUE(repose.move(rows, row));
+    }
+    const auto integers = dequantise(rows);
+    for (std::size_t row = 0; row < 100; ++row) {
+      for (std::size_t colour = 0; colour < 3; ++colour) {
+        const double was = seen_colour(before, row, colour, seen_along);
+        EXPECT_NEAR(seen_colour(cloud, row, colour, turn * seen_along), was, 1e-5);
+        EXPECT_NEAR(seen_colour(integers, row, colour, turn * seen_along), was, 0.05);
+      }
+    }
+  }
+}
+
 // Quantisation must not add up over many corrections.
 TEST(Repose, ThereAndBackManyTimesEndsWhereItBegan) {
   const auto rows = test::random_rows(300, 5);
@@ -99,7 +136,7 @@ TEST(Repose, ACorrectionOutOfThisWorldMovesNothingButCounts) {
   const PoseCorrection correction{3, 1, turned(0, {-1e6, 0, 0}), turned(0, {1e6, 0, 0})};
   const Repose repose(std::span(&correction, 1));
   for (std::size_t row = 0; row < 10; ++row) {
-    EXPECT_TRUE(repose.move(rows.chunks[row], rows.channels[row], rows.anchors[row]));
+    EXPECT_TRUE(repose.move(rows, row));
     EXPECT_EQ(rows.anchors[row].pose_version, 1U);
   }
   EXPECT_EQ(rows.channels, before);
