@@ -89,7 +89,7 @@ void AttributeWriter::planes(std::span<const std::uint16_t> values, unsigned bit
   std::vector<std::byte> plane(values.size());
   for (unsigned shift = 0; shift < bits; shift += 8) {
     for (std::size_t i = 0; i < values.size(); ++i)
-      plane[i] = static_cast<std::byte>((values[i] >> shift) & 0xFFU);
+      plane[i] = static_cast<std::byte>((std::uint32_t{values[i]} >> shift) & 0xFFU);
     block(plane, out);
   }
 }
