@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/mapping/exposure.hpp"
-
-#include <tbb/parallel_for.h>
+#include "common/thread/parallel_for.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +26,7 @@ Exposure ExposureTable::of(std::uint32_t key) const {
 void ExposureTable::learn(std::uint32_t key, std::span<const float> drawn, std::span<float> by_seen) {
   Entry& entry = entries_[key];
   std::vector<std::array<double, 6>> parts(block_count(drawn.size()));
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t b) {
+  thread::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t b) {
     std::array<double, 6> sum{};
     const std::size_t last = std::min(drawn.size(), 3 * kBlock * (b + 1));
     for (std::size_t i = 3 * kBlock * b; i < last; i += 3) {
@@ -64,7 +63,7 @@ void ExposureTable::step(const std::array<double, 6>& gradient, Entry& entry) co
 }
 
 void apply(const Exposure& exposure, std::span<const float> drawn, std::span<float> seen) {
-  tbb::parallel_for(std::size_t{0}, block_count(drawn.size()), [&](std::size_t b) {
+  thread::parallel_for(std::size_t{0}, block_count(drawn.size()), [&](std::size_t b) {
     const std::size_t last = std::min(drawn.size(), 3 * kBlock * (b + 1));
     for (std::size_t i = 3 * kBlock * b; i < last; i += 3) {
       for (std::size_t c = 0; c < 3; ++c) seen[i + c] = exposure.gain[c] * drawn[i + c] + exposure.offset[c];

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
+#include "common/thread/parallel_for.hpp"
 #include "kernels/core/simd_variants.hpp"
 #include "kernels/splat/blend.hpp"
 #include "kernels/splat/pixel_alpha.hpp"
 #include "kernels/splat/tile_blocks.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -90,7 +89,7 @@ EDGESPLAT_SIMD_VARIANTS(blend_tile,
 void blend(std::span<const Splat> splats, const TileLists& tiles, const View& view,
            const RenderOptions& options, const BlendOutputs& out) {
   const auto draw = fastest_blend_tile();
-  tbb::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
+  thread::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
     const int column = t % tiles.columns;
     const int row = t / tiles.columns;
     Tile tile;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/splat/depth_order.hpp"
-
-#include <tbb/parallel_for.h>
+#include "common/thread/parallel_for.hpp"
 
 #include <algorithm>
 #include <array>
@@ -54,7 +53,7 @@ std::vector<Splat> sorted_by_depth(const std::vector<Splat>& splats) {
     keys[i] = {std::bit_cast<std::uint32_t>(splats[i].depth_m), static_cast<std::uint32_t>(i)};
   sort_keys(keys);
   std::vector<Splat> sorted(splats.size());
-  tbb::parallel_for(std::size_t{0}, (keys.size() + kBlock - 1) / kBlock, [&](std::size_t b) {
+  thread::parallel_for(std::size_t{0}, (keys.size() + kBlock - 1) / kBlock, [&](std::size_t b) {
     for (std::size_t i = b * kBlock; i < std::min(keys.size(), (b + 1) * kBlock); ++i)
       sorted[i] = splats[keys[i].index];
   });

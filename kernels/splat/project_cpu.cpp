@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
+#include "common/thread/parallel_for.hpp"
 #include "kernels/splat/depth_order.hpp"
 #include "kernels/splat/project_backends.hpp"
 #include "kernels/splat/splat_one.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
@@ -49,7 +48,7 @@ void project_block(const GaussianSpans& g, const View& view, const RenderOptions
 Projected project_cpu(const GaussianSpans& gaussians, const View& view, const RenderOptions& options) {
   const std::size_t count = gaussians.size();
   std::vector<Block> blocks((count + kBlock - 1) / kBlock);
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+  thread::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
     project_block(gaussians, view, options, b * kBlock, std::min(count, (b + 1) * kBlock), blocks[b]);
   });
   Projected out;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/splat/tile_lists.hpp"
-
-#include <tbb/parallel_for.h>
+#include "common/thread/parallel_for.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -134,7 +133,7 @@ TileLists make_tile_lists(std::span<const Splat> splats, int width_px, int heigh
   lists.columns = (width_px + kTilePx - 1) / kTilePx;
   lists.rows = (height_px + kTilePx - 1) / kTilePx;
   std::vector<Part> parts(kParts);
-  tbb::parallel_for(std::size_t{0}, kParts, [&](std::size_t p) {
+  thread::parallel_for(std::size_t{0}, kParts, [&](std::size_t p) {
     parts[p].first = splats.size() * p / kParts;
     parts[p].last = splats.size() * (p + 1) / kParts;
     find_tiles(splats, lists, parts[p]);
@@ -142,7 +141,7 @@ TileLists make_tile_lists(std::span<const Splat> splats, int width_px, int heigh
   lists.splat_starts.reserve(splats.size() + 1);
   number_slots(parts, lists);
   lay_out(parts, lists);
-  tbb::parallel_for(std::size_t{0}, kParts, [&](std::size_t p) { deal_out(parts[p], lists); });
+  thread::parallel_for(std::size_t{0}, kParts, [&](std::size_t p) { deal_out(parts[p], lists); });
   return lists;
 }
 

@@ -3,10 +3,9 @@
 #include "kernels/train/adam.hpp"
 
 #include "common/base/check.hpp"
+#include "common/thread/parallel_for.hpp"
 #include "kernels/core/simd_variants.hpp"
 #include "kernels/splat/splat_one.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -134,7 +133,7 @@ void Adam::step(const GaussianGradients& gradients, const LearningRates& rates, 
   const auto step_row = fastest_step_row();
   const int used = static_cast<int>(ParameterRow::size(sh_degree_));
   const std::size_t blocks = (gradients.rows.size() + kBlock - 1) / kBlock;
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+  thread::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     const std::size_t last = std::min(gradients.rows.size(), (b + 1) * kBlock);
     float values[ParameterRow::kMaxStride] = {};
     float row_rates[ParameterRow::kMaxStride];

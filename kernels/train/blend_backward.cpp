@@ -3,11 +3,10 @@
 #include "kernels/train/blend_backward.hpp"
 
 #include "common/base/check.hpp"
+#include "common/thread/parallel_for.hpp"
 #include "kernels/core/simd_variants.hpp"
 #include "kernels/splat/pixel_alpha.hpp"
 #include "kernels/splat/tile_blocks.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -191,7 +190,7 @@ std::span<const SplatBackward> blend_backward(std::span<const Splat> splats, con
   scratch.by_slot.resize(tiles.splats.size());
   scratch.by_splat.resize(splats.size());
   const auto reverse_tile = fastest_reverse_tile();
-  tbb::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
+  thread::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
     const int column = t % tiles.columns;
     const int row = t / tiles.columns;
     Tile tile;
@@ -201,7 +200,7 @@ std::span<const SplatBackward> blend_backward(std::span<const Splat> splats, con
                  tile);
   });
   constexpr std::size_t kBlock = 1024;
-  tbb::parallel_for(std::size_t{0}, (splats.size() + kBlock - 1) / kBlock, [&](std::size_t b) {
+  thread::parallel_for(std::size_t{0}, (splats.size() + kBlock - 1) / kBlock, [&](std::size_t b) {
     for (std::size_t i = b * kBlock; i < std::min(splats.size(), (b + 1) * kBlock); ++i) {
       const std::size_t first = tiles.splat_starts[i];
       scratch.by_splat[i] =

@@ -3,11 +3,10 @@
 #include "kernels/train/gaussian_backward.hpp"
 
 #include "common/base/check.hpp"
+#include "common/thread/parallel_for.hpp"
 #include "kernels/splat/splat_one.hpp"
 #include "kernels/train/gaussian_lanes.hpp"
 #include "kernels/train/sh_backward_math.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -159,7 +158,7 @@ void gaussian_backward(const splat::GaussianSpans& gaussians, const splat::View&
   const std::size_t blocks = (index.rows.size() + kBlock - 1) / kBlock;
   std::vector<Pose> poses(blocks, Pose{});
   const Source source{gaussians, view, splat::camera_of(view)};
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+  thread::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     reverse_block(source, {splats, by_splat}, index, b, out, poses[b]);
   });
   out.pose = {};

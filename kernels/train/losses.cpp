@@ -3,10 +3,9 @@
 #include "kernels/train/losses.hpp"
 
 #include "common/base/check.hpp"
+#include "common/thread/parallel_for.hpp"
 #include "kernels/core/simd_variants.hpp"
 #include "kernels/train/ssim.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +21,9 @@ constexpr std::size_t kBlock = std::size_t{1} << 14U;  ///< pixels
 template <typename Block>
 double sum_over_blocks(std::size_t pixels, const Block& block) {
   std::vector<double> sums((pixels + kBlock - 1) / kBlock);
-  tbb::parallel_for(std::size_t{0}, sums.size(),
-                    [&](std::size_t b) { sums[b] = block(b * kBlock, std::min(pixels, (b + 1) * kBlock)); });
+  thread::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t b) {
+    sums[b] = block(b * kBlock, std::min(pixels, (b + 1) * kBlock));
+  });
   double sum = 0.0;
   for (const double part : sums) sum += part;
   return sum;

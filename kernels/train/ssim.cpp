@@ -3,9 +3,8 @@
 #include "kernels/train/ssim.hpp"
 
 #include "common/base/check.hpp"
+#include "common/thread/parallel_for.hpp"
 #include "kernels/train/ssim_strip.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <memory>
@@ -155,7 +154,7 @@ double run(const ColourPair& pair, float scale, std::span<float> by_drawn) {
   const int rows = (pair.height_px + kStripRows - 1) / kStripRows;
   std::vector<double> sums(static_cast<std::size_t>(columns * rows), 0.0);
   const auto run_strip = fastest_run_strip();
-  tbb::parallel_for(0, columns * rows, [&](int i) {
+  thread::parallel_for(0, columns * rows, [&](int i) {
     const int y0 = i / columns * kStripRows;
     const Strip strip{pair,    i % columns * kStripPx, y0, std::min(kStripRows, pair.height_px - y0), scale,
                       by_drawn};

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "common/thread/parallel_for.hpp"
+
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class BlockLoop {
       for (std::size_t block = 0; block < n; ++block) one(block);
       return;
     }
-    arena_.execute([&] { tbb::parallel_for(std::size_t{0}, n, one); });
+    arena_.execute([&] { thread::parallel_for(std::size_t{0}, n, one); });
   }
 
  private:

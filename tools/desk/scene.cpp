@@ -4,9 +4,9 @@
 
 #include "common/io/camera_set.hpp"
 #include "common/io/image_file.hpp"
+#include "common/thread/parallel_for.hpp"
 #include "kernels/image/undistort.hpp"
 
-#include <tbb/parallel_for.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -88,7 +88,7 @@ struct Frame {
 
 Status read_pictures(const std::vector<Frame>& frames, const SceneOptions& options, Scene& scene) {
   std::vector<Result<ScenePicture>> pictures(frames.size());
-  tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
+  thread::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
     pictures[i] = read_picture(frames[i].file, *frames[i].posed, *frames[i].undistorter, options);
   });
   for (auto& picture : pictures) {

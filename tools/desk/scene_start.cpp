@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/desk/scene_start.hpp"
 
+#include "common/thread/parallel_for.hpp"
 #include "kernels/mapping/neighbour_grid.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +25,7 @@ std::vector<float> spacings(std::span<const Eigen::Vector3f> points, float exten
   for (float reach = kFirstReach; reach <= kLastReach && !open.empty(); reach *= 2.0F) {
     const mapping::NeighbourGrid grid(points, reach * extent);
     std::vector<char> found(open.size(), 0);
-    tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) {
+    thread::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) {
       const auto near = grid.nearest(points[open[i]]);
       if (near.count <= kNeighbours) return;
       float sum = 0.0F;

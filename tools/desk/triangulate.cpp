@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
+#include "common/thread/parallel_for.hpp"
 #include "tools/desk/scene_start.hpp"
 
-#include <tbb/parallel_for.h>
 #include <Eigen/Dense>
 #include <opencv2/features2d.hpp>
 
@@ -141,11 +141,11 @@ std::vector<Meeting> triangulate_pair(const ScenePicture& a, const ScenePicture&
 
 io::PointCloud triangulate_all(std::span<const ScenePicture* const> pictures) {
   std::vector<Features> features(pictures.size());
-  tbb::parallel_for(std::size_t{0}, pictures.size(),
-                    [&](std::size_t i) { features[i] = find_features(*pictures[i]); });
+  thread::parallel_for(std::size_t{0}, pictures.size(),
+                       [&](std::size_t i) { features[i] = find_features(*pictures[i]); });
   const auto pairs = partner_pairs(pictures);
   std::vector<std::vector<Meeting>> meetings(pairs.size());
-  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+  thread::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
     const auto [a, b] = pairs[i];
     meetings[i] = triangulate_pair(*pictures[a], *pictures[b], features[a], features[b]);
   });

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulate/camera_render.hpp"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "common/thread/parallel_for.hpp"
 
 #include <algorithm>
 #include <array>
@@ -66,9 +64,7 @@ class Painter {
   }
   template <typename Row>
   void for_each_row(const Row& row) const {
-    tbb::parallel_for(tbb::blocked_range<int>(0, height_, 8), [&](const tbb::blocked_range<int>& rows) {
-      for (int y = rows.begin(); y < rows.end(); ++y) row(y);
-    });
+    thread::parallel_for(0, height_, row);
   }
   [[nodiscard]] Ray ray(const Vector3d& direction_in_camera) const {
     return {view_.world_from_camera.translation_m, rotation_ * direction_in_camera, view_.time_s};

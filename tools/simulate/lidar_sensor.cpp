@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulate/lidar_sensor.hpp"
-
-#include <tbb/parallel_for.h>
+#include "common/thread/parallel_for.hpp"
 
 #include <cmath>
 
@@ -46,7 +45,7 @@ LidarShots LidarSensor::packet(std::uint64_t number) const {
 
 std::vector<LidarShots> LidarSensor::packets(std::uint64_t first_packet, std::size_t count) const {
   std::vector<LidarShots> out(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { out[i] = packet(first_packet + i); });
+  thread::parallel_for(std::size_t{0}, count, [&](std::size_t i) { out[i] = packet(first_packet + i); });
   return out;
 }
 

@@ -5,9 +5,8 @@
 #include "common/base/check.hpp"
 #include "common/io/image_file.hpp"
 #include "common/io/trajectory_file.hpp"
+#include "common/thread/parallel_for.hpp"
 #include "tools/simulate/camera_render.hpp"
-
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +53,7 @@ Result<RecordedFrame> VirtualCamera::expose() {
   frame.arrival = arrival_.arrival(middle + from_seconds(0.5 * exposure_s));
   frame.meta = {frame.stamp, number, static_cast<float>(exposure_s), 0.0F, clock_.source()};
   Result<std::vector<std::byte>> image, clean, mask, depth;
-  tbb::parallel_invoke(
+  thread::parallel_invoke(
       [&] { image = io::encode_jpeg(sensor_.expose(picture.full, number, time_s), kJpegQuality); },
       [&] { clean = io::encode_png(sensor_.expose_ideal(picture.clean, time_s), 1); },
       [&] { mask = io::encode_png(picture.movers, 1); },
