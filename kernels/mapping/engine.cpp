@@ -15,6 +15,16 @@ namespace edgesplat::mapping {
 namespace {
 
 constexpr float kMarkedSigmas = 2.0F;
+/// A pixel filled so far by others is theirs.
+constexpr float kFilledElsewhere = 0.5F;
+
+/// Nothing where `alpha` is that of others is trained on.
+void ignore_filled(const std::vector<float>& alpha, StoredView& view) {
+  view.ignored.resize(alpha.size());
+  for (std::size_t pixel = 0; pixel < alpha.size(); ++pixel) {
+    if (alpha[pixel] > kFilledElsewhere) view.ignored[pixel] = true;
+  }
+}
 
 }  // namespace
 
@@ -43,8 +53,13 @@ Result<std::size_t> MappingEngine::add(const map::Keyframe& keyframe,
   EDGESPLAT_TRY(StoredView view,
                 make_view(keyframe, map_from_body, *picture, undistorter_of(keyframe.camera->model)));
   if (options_.seen_through.enabled) EDGESPLAT_TRY_STATUS(forget_what_is_gone(view));
+  std::vector<float> elsewhere_alpha;
+  if (elsewhere_ && elsewhere_->size() > 0) {
+    EDGESPLAT_TRY_STATUS(draw_alpha(view, *elsewhere_, elsewhere_alpha));
+    ignore_filled(elsewhere_alpha, view);
+  }
   if (options_.fill.enabled) {
-    EDGESPLAT_TRY(const std::size_t filled, fill(view, input));
+    EDGESPLAT_TRY(const std::size_t filled, fill(view, input, std::move(elsewhere_alpha)));
     added += filled;
   }
   views_.add(std::move(view));
@@ -77,23 +92,38 @@ Status MappingEngine::forget_what_is_gone(const StoredView& view) {
   return optimiser_.remove_rows(rows);
 }
 
-Result<std::size_t> MappingEngine::fill(const StoredView& view, const SeedInput& seeded) {
-  const auto ground = find_ground(seeded.points_in_body, seeded.map_from_body, options_.fill.ground);
-  if (ground) ground_ = ground;
-  if (!ground_) return std::size_t{0};
+Status MappingEngine::draw_alpha(const StoredView& view, const gaussian::GaussianCloud& cloud,
+                                 std::vector<float>& alpha) {
   EDGESPLAT_TRY(const splat::View drawn_from,
                 splat::View::from(view.camera(), view.map_from_camera.inverse()));
   const std::size_t pixels = view.undistorter->seen().size();
   colour_.resize(3 * pixels);
   depth_m_.resize(pixels);
-  std::vector<float> alpha(pixels);
-  EDGESPLAT_TRY(const splat::RenderStats stats, splat::render(core::Backend::kCpu, splat::spans_of(cloud()),
-                                                              drawn_from, {}, {colour_, depth_m_, alpha}));
+  std::vector<float> drawn(pixels);
+  EDGESPLAT_TRY(const splat::RenderStats stats, splat::render(core::Backend::kCpu, splat::spans_of(cloud),
+                                                              drawn_from, {}, {colour_, depth_m_, drawn}));
   (void)stats;
+  alpha.resize(pixels, 0.0F);
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+    alpha[pixel] = 1.0F - (1.0F - alpha[pixel]) * (1.0F - drawn[pixel]);
+  return {};
+}
+
+Result<std::size_t> MappingEngine::fill(const StoredView& view, const SeedInput& seeded,
+                                        std::vector<float> alpha) {
+  const auto ground = find_ground(seeded.points_in_body, seeded.map_from_body, options_.fill.ground);
+  if (ground) ground_ = ground;
+  if (!ground_) return std::size_t{0};
+  EDGESPLAT_TRY_STATUS(draw_alpha(view, cloud(), alpha));
   const auto points = fill_holes(view, seeded.map_from_body, *ground_, alpha, options_.fill);
   SeedInput holes = seeded;
   holes.points_in_body = points;
   return seed(holes);
+}
+
+void MappingEngine::set_elsewhere(std::shared_ptr<const gaussian::GaussianCloud> elsewhere) {
+  elsewhere_ = std::move(elsewhere);
+  if (elsewhere_) seeder_.cover(*elsewhere_);
 }
 
 std::shared_ptr<const image::Undistorter> MappingEngine::undistorter_of(const geometry::CameraModel& camera) {

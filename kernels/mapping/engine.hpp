@@ -11,8 +11,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace edgesplat::mapping {
@@ -66,6 +68,10 @@ class MappingEngine {
   /// is not there any more. Before the first add(). Returns how many there was room for. kInvalidArgument,
   /// and nothing taken, for arrays that disagree or a higher SH degree than the options'.
   Result<std::size_t> restore(const gaussian::GaussianCloud& cloud);
+  /// Gaussians that somebody else holds and that are drawn together with these (in the same frame): nothing
+  /// is seeded where they are, and what they fill of a picture is not trained on. Counts for keyframes added
+  /// from now on; null for none.
+  void set_elsewhere(std::shared_ptr<const gaussian::GaussianCloud> elsewhere);
   /// Seeds what the keyframe shows anew and keeps its picture to train on. `picture`: the keyframe's,
   /// decoded; null where it has none: then it only seeds. Returns how many Gaussians are new.
   /// kInvalidArgument for a picture of another size than the camera's (the points are seeded all the same).
@@ -78,6 +84,9 @@ class MappingEngine {
   std::optional<StepReport> step();
 
   [[nodiscard]] EngineChanges take_changes();
+  /// The pictures trained on, oldest first, to go on with them in another engine; none is left here.
+  [[nodiscard]] std::deque<StoredView> take_views() { return views_.take_all(); }
+  void add_view(StoredView view) { views_.add(std::move(view)); }
   [[nodiscard]] const gaussian::GaussianCloud& cloud() const { return optimiser_.cloud(); }
   [[nodiscard]] const gaussian::GaussianCloud& seeds() const { return seeds_; }
   [[nodiscard]] const SeedStats& seed_stats() const { return seeder_.stats(); }
@@ -94,10 +103,13 @@ class MappingEngine {
         optimiser_(std::move(optimiser)),
         views_(options.views) {}
   Result<std::size_t> seed(const SeedInput& input);
-  /// Where the new view is still empty.
+  /// How much of the view's pixels [H,W] these Gaussians fill; grows by what they do where it is not empty.
+  [[nodiscard]] Status draw_alpha(const StoredView& view, const gaussian::GaussianCloud& cloud,
+                                  std::vector<float>& alpha);
   /// What the view's LiDAR looks through goes, and its pixels in the pictures that showed it.
   Status forget_what_is_gone(const StoredView& view);
-  Result<std::size_t> fill(const StoredView& view, const SeedInput& seeded);
+  /// Seeds where the new view is still empty; `alpha`: what is filled by others, empty for nothing.
+  Result<std::size_t> fill(const StoredView& view, const SeedInput& seeded, std::vector<float> alpha);
   [[nodiscard]] std::shared_ptr<const image::Undistorter> undistorter_of(const geometry::CameraModel& camera);
   [[nodiscard]] TrainingView prepare(const StoredView& view);
 
@@ -108,6 +120,7 @@ class MappingEngine {
   ViewPool views_;
   SeenThrough seen_through_{options_.seen_through};
   gaussian::GaussianCloud seeds_;
+  std::shared_ptr<const gaussian::GaussianCloud> elsewhere_;
   std::optional<GroundPlane> ground_;            ///< as found last
   std::optional<geometry::CameraModel> camera_;  ///< that undistorter_ is for
   std::shared_ptr<const image::Undistorter> undistorter_;

@@ -21,6 +21,12 @@ void ViewPool::add(StoredView view) {
   if (bytes_ > options_.max_bytes) thin_out();
 }
 
+std::deque<StoredView> ViewPool::take_all() {
+  round_.clear();
+  bytes_ = 0;
+  return std::exchange(views_, {});
+}
+
 void ViewPool::thin_out() {
   const std::size_t keep_newest = std::min(options_.recent, views_.size());
   std::deque<StoredView> kept;

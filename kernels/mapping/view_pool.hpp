@@ -25,6 +25,8 @@ class ViewPool {
   explicit ViewPool(const ViewPoolOptions& options) : options_(options) {}
 
   void add(StoredView view);
+  /// All, oldest first, leaving none: to go on with them in another pool.
+  [[nodiscard]] std::deque<StoredView> take_all();
   /// The view to train on next; null for an empty pool. Valid until the next add().
   [[nodiscard]] const StoredView* next();
   [[nodiscard]] std::size_t size() const { return views_.size(); }

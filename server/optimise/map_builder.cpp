@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/optimise/map_builder.hpp"
 
-#include "common/io/image_file.hpp"
+#include "common/io/keyframe_picture.hpp"
 #include "common/log/log.hpp"
 
 #include <utility>
@@ -23,19 +23,14 @@ Result<std::size_t> MapBuilder::restore(const gaussian::GaussianCloud& cloud,
 }
 
 std::size_t MapBuilder::add(const map::Keyframe& keyframe) {
-  std::optional<sensor::ImageRgb8> picture;
-  if (keyframe.image && keyframe.camera) {
-    auto decoded = io::decode_rgb8(keyframe.image->bytes);
-    if (decoded) picture = *std::move(decoded);
-    if (!picture || picture->width_px != keyframe.camera->model.width_px ||
-        picture->height_px != keyframe.camera->model.height_px) {
-      ++bad_pictures_;
-      EDGESPLAT_LOG_WARN("map", "keyframe's picture not used", "keyframe", keyframe.id.value, "why",
-                         picture ? "not of its camera's size" : decoded.error().context);
-      picture.reset();
-    }
+  const auto picture = io::decode_picture(keyframe);
+  if (!picture) {
+    ++bad_pictures_;
+    EDGESPLAT_LOG_WARN("map", "keyframe's picture not used", "keyframe", keyframe.id.value, "why",
+                       picture.error().context);
   }
-  const auto added = engine_->add(keyframe, keyframe.odom_from_body, picture ? &*picture : nullptr);
+  const bool shows = picture && picture->has_value();
+  const auto added = engine_->add(keyframe, keyframe.odom_from_body, shows ? &**picture : nullptr);
   if (added) {
     poses_.push_back({keyframe.id, keyframe.pose_version, keyframe.odom_from_body});
     return *added;

@@ -27,7 +27,7 @@ COMMON_EXCEPTIONS = {("log", "time"), ("config", "time"), ("thread", "time")}
 # Within robot and server: the order of the data; a stage may know the types of those before it. What flows
 # back comes as a message.
 STAGES = {
-    "robot": ["drivers", "sync", "tracking", "keyframe", "uplink", "offload", "map", "render", "config", "app"],
+    "robot": ["drivers", "sync", "tracking", "keyframe", "uplink", "offload", "map", "local_mapping", "render", "config", "app"],
     "server": ["ingest", "masks", "adjust", "optimise", "store", "stream", "cloud", "config", "app"],
 }
 
