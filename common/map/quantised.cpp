@@ -163,7 +163,8 @@ void append_quantised(const gaussian::GaussianCloud& cloud, std::size_t row, con
   rows.chunks.push_back(chunk);
   rows.channels.push_back(channels);
   rows.anchors.push_back(cloud.anchors[row]);
-  for (std::size_t i = 3; i < cloud.sh_floats_each(); ++i) rows.sh_rest.push_back(round_sh(static_cast<double>(sh[i]) / kShStep));
+  for (std::size_t i = 3; i < cloud.sh_floats_each(); ++i)
+    rows.sh_rest.push_back(round_sh(static_cast<double>(sh[i]) / kShStep));
 }
 
 gaussian::GaussianCloud dequantise(const QuantisedRows& rows) {
