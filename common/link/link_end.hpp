@@ -54,6 +54,9 @@ class LinkEnd final : public Transport {
   std::optional<Message> receive(nanoseconds timeout) override;
   [[nodiscard]] bool connected() const override { return connected_.load(); }
   [[nodiscard]] LinkCounters counters() const override;
+  [[nodiscard]] std::size_t waiting_bytes(Lane lane, map::RobotId robot) const override {
+    return sending_.waiting_bytes(lane, robot);
+  }
   [[nodiscard]] LinkQuality quality(map::RobotId robot) const override;
   void allow_probing(bool allowed) override;
   [[nodiscard]] std::optional<ImpairmentCounters> impairments() const override;

@@ -33,10 +33,13 @@ void record(metrics::Registry& registry, const LinkCounters& counters) {
         {"inbox_drops", of.inbox_drops},
     };
     for (const auto& [name, value] : events) registry.counter(prefix + name).add(value);
-    registry.gauge(prefix + "queued_messages").set(static_cast<double>(of.queued_messages));
-    registry.gauge(prefix + "queued_bytes").set(static_cast<double>(of.queued_bytes));
-    registry.gauge(prefix + "flying_messages").set(static_cast<double>(of.flying_messages));
-    registry.gauge(prefix + "flying_bytes").set(static_cast<double>(of.flying_bytes));
+    const std::pair<const char*, std::size_t> levels[] = {
+        {"queued_messages", of.queued_messages},           {"queued_bytes", of.queued_bytes},
+        {"flying_messages", of.flying_messages},           {"flying_bytes", of.flying_bytes},
+        {"most_queued_messages", of.most_queued_messages}, {"most_queued_bytes", of.most_queued_bytes},
+        {"most_flying_messages", of.most_flying_messages}, {"most_flying_bytes", of.most_flying_bytes},
+    };
+    for (const auto& [name, value] : levels) registry.gauge(prefix + name).set(static_cast<double>(value));
   }
 }
 

@@ -12,6 +12,10 @@ namespace {
 
 constexpr std::size_t kFirstWindow_bytes = 64 * 1024;  // until set_window() knows better
 
+void note_most(std::size_t& most, std::size_t now) {
+  most = std::max(most, now);
+}
+
 }  // namespace
 
 bool SendQueue::push(Lane lane, map::RobotId robot, std::vector<std::byte> bytes) {
@@ -39,6 +43,8 @@ bool SendQueue::push(Lane lane, map::RobotId robot, std::vector<std::byte> bytes
     header.total_bytes = static_cast<std::uint32_t>(bytes.size());
     header.message_crc32c = crc;
     to.queue.push_back({robot, std::move(bytes), header});
+    note_most(to.counters.most_queued_messages, to.queue.size());
+    note_most(to.counters.most_queued_bytes, to.bytes);
     woken_ = true;
   }
   work_.notify_all();
@@ -112,6 +118,8 @@ std::optional<SendQueue::Part> SendQueue::begin_next(Lane lane, HostTime now) {
     from.bytes -= queued->bytes.size();
     to.flight.begin(queued->header, std::move(queued->bytes));
     from.queue.erase(queued);
+    note_most(from.counters.most_flying_messages, to.flight.trains());
+    note_most(from.counters.most_flying_bytes, to.flight.held_bytes());
     const auto part = to.flight.next(now, window);
     if (!part) return std::nullopt;
     return chosen(lane, robot, part->header, part->payload);
@@ -210,6 +218,13 @@ std::size_t SendQueue::bulk_bytes_on_the_way(map::RobotId robot) const {
     const auto to = state(lane).peers.find(robot);
     if (!urgent(lane) && to != state(lane).peers.end()) bytes += to->second.flight.bytes_on_the_way();
   }
+  return bytes;
+}
+
+std::size_t SendQueue::waiting_bytes(Lane lane, map::RobotId robot) const {
+  const std::lock_guard lock(mutex_);
+  std::size_t bytes = 0;
+  for (const Queued& queued : state(lane).queue) bytes += queued.robot == robot ? queued.bytes.size() : 0;
   return bytes;
 }
 

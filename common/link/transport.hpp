@@ -43,13 +43,17 @@ struct LaneCounters {
   std::uint64_t bytes_received = 0;
   std::uint64_t chunks_corrupt = 0;  ///< failed header or CRC32C checks; the sender sends them again
   std::uint64_t messages_received = 0;
-  std::uint64_t messages_corrupt = 0;  ///< failed header, order or CRC32C checks
-  std::uint64_t messages_lost = 0;     ///< begun but not complete in time, or a number never seen
-  std::uint64_t inbox_drops = 0;       ///< received whole, but the reader did not keep up
-  std::size_t queued_messages = 0;     ///< now
-  std::size_t queued_bytes = 0;        ///< now
-  std::size_t flying_messages = 0;     ///< begun and not acknowledged, now
-  std::size_t flying_bytes = 0;        ///< now
+  std::uint64_t messages_corrupt = 0;    ///< failed header, order or CRC32C checks
+  std::uint64_t messages_lost = 0;       ///< begun but not complete in time, or a number never seen
+  std::uint64_t inbox_drops = 0;         ///< received whole, but the reader did not keep up
+  std::size_t queued_messages = 0;       ///< now
+  std::size_t queued_bytes = 0;          ///< now
+  std::size_t flying_messages = 0;       ///< begun and not acknowledged, now
+  std::size_t flying_bytes = 0;          ///< now
+  std::size_t most_queued_messages = 0;  ///< at any time
+  std::size_t most_queued_bytes = 0;     ///< at any time
+  std::size_t most_flying_messages = 0;  ///< to one peer at any time
+  std::size_t most_flying_bytes = 0;     ///< to one peer at any time
 };
 using LinkCounters = std::array<LaneCounters, kLaneCount>;
 
@@ -74,6 +78,8 @@ class Transport {
   /// A peer that receives what this end sends is there.
   [[nodiscard]] virtual bool connected() const = 0;
   [[nodiscard]] virtual LinkCounters counters() const = 0;
+  /// Of the lane, for `robot` (or the server), in the queue: nothing of them has begun to travel.
+  [[nodiscard]] virtual std::size_t waiting_bytes(Lane /*lane*/, map::RobotId /*robot*/) const { return 0; }
   /// Of the way to `robot`, or to the server.
   [[nodiscard]] virtual LinkQuality quality(map::RobotId /*robot*/) const { return {}; }
   /// A decision depends on the bandwidth: may be measured with padding while nothing else is sent.

@@ -33,10 +33,11 @@ std::vector<OutgoingDelta> addressed(map::RobotId robot, std::vector<stream::Byt
 
 }  // namespace
 
-MappingStage::MappingStage(const config::ServerConfig& config, Start start, metrics::Registry& registry,
-                           const Clock& clock)
+MappingStage::MappingStage(const config::ServerConfig& config, Start start, DeltaRoom room,
+                           metrics::Registry& registry, const Clock& clock)
     : config_(config),
       epoch_(start.epoch),
+      room_(std::move(room)),
       clock_(clock),
       ids_(config.instance_id, first_counter(start)),
       restored_(std::move(start.maps)),
@@ -49,6 +50,7 @@ MappingStage::MappingStage(const config::ServerConfig& config, Start start, metr
       keyframe_ms_(registry.histogram("map.keyframe_ms")),
       step_ms_(registry.histogram("map.step_ms")),
       requests_corrupt_(registry.counter("map.requests_corrupt")),
+      resends_put_off_(registry.counter("map.resends_put_off")),
       restored_gaussians_(registry.counter("map.restored_gaussians")),
       copy_ms_(registry.histogram("store.copy_ms")) {}
 
@@ -72,7 +74,7 @@ std::vector<OutgoingDelta> MappingStage::publish(map::RobotId robot, RobotMap& m
   map.last_publish = clock_.now();
   const mapping::EngineChanges changes = map.builder->take_changes();
   auto deltas = map.stream->publish(map.builder->engine().cloud(), changes.changed_rows, changes.removed,
-                                    map.allowance.available(map.last_publish));
+                                    std::min(map.allowance.available(map.last_publish), room_(robot)));
   deltas_.add(deltas.size());
   for (const auto& delta : deltas) {
     delta_bytes_.add(delta.size());
@@ -83,8 +85,7 @@ std::vector<OutgoingDelta> MappingStage::publish(map::RobotId robot, RobotMap& m
 
 bool MappingStage::has_work() const {
   return std::any_of(maps_.begin(), maps_.end(), [this](const auto& entry) {
-    return (config_.optimise.enabled && entry.second.builder->has_work()) ||
-           entry.second.stream->counters().waiting > 0;
+    return config_.optimise.enabled && entry.second.builder->has_work();
   });
 }
 
@@ -151,6 +152,10 @@ std::vector<OutgoingDelta> MappingStage::answer(const link::Message& message) {
   restored_.heard(message.robot, message.session);
   const auto stream = stream_of(message.robot, message.session);
   if (stream == nullptr) return {};
+  if (request->kind == map::RequestKind::kResend && room_(message.robot) == 0) {
+    resends_put_off_.add();
+    return {};
+  }
   EDGESPLAT_LOG_DEBUG("map", "map request", "robot", message.robot.value, "kind",
                       std::string(map::to_string(request->kind)), "seq", request->seq);
   return addressed(message.robot, stream->answer(*request, clock_.now()));

@@ -13,6 +13,7 @@
 #include "server/stream/byte_allowance.hpp"
 #include "server/stream/delta_stream.hpp"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -36,6 +37,9 @@ struct Start {
   store::Recorder* recorder = nullptr;      ///< keeps keyframes and maps; null: nothing is kept
 };
 
+/// How many bytes of deltas a robot's link takes now; what waits in front of it is old before it leaves.
+using DeltaRoom = std::function<std::size_t(map::RobotId)>;
+
 /// An encoded delta and whom it is for.
 struct OutgoingDelta {
   map::RobotId robot;
@@ -48,16 +52,17 @@ struct OutgoingDelta {
 /// and map.step_ms.
 class MappingStage {
  public:
-  MappingStage(const config::ServerConfig& config, Start start, metrics::Registry& registry,
+  MappingStage(const config::ServerConfig& config, Start start, DeltaRoom room, metrics::Registry& registry,
                const Clock& clock);
 
   /// New Gaussians go out at once, as far as the robot's allowance goes.
   std::vector<OutgoingDelta> handle(const ingest::IngestedKeyframe& keyframe);
-  /// There is a map to optimise or something left to send.
+  /// There is a map to optimise.
   [[nodiscard]] bool has_work() const;
   /// One optimisation step of the map whose turn it is, and what is due to be sent.
   std::vector<OutgoingDelta> work();
-  /// Takes a robot's request; what is kept goes out again at once, the rest with the next work().
+  /// Takes a robot's request; what is kept goes out again at once, the rest with the next work(). While its
+  /// link has no room, what it misses may be waiting there: nothing is sent again (map.resends_put_off).
   std::vector<OutgoingDelta> answer(const link::Message& message);
   /// A robot's heartbeat says what it has applied.
   void take_heartbeat(const link::Message& message);
@@ -95,6 +100,7 @@ class MappingStage {
 
   const config::ServerConfig& config_;
   const map::Epoch epoch_;
+  const DeltaRoom room_;
   const Clock& clock_;
   mapping::IdAllocator ids_;
   RestoredMaps restored_;
@@ -109,6 +115,7 @@ class MappingStage {
   metrics::Histogram& keyframe_ms_;
   metrics::Histogram& step_ms_;
   metrics::Counter& requests_corrupt_;
+  metrics::Counter& resends_put_off_;
   metrics::Counter& restored_gaussians_;
   metrics::Histogram& copy_ms_;
   mutable std::mutex streams_mutex_;

@@ -12,6 +12,7 @@ namespace edgesplat::app {
 namespace {
 
 constexpr nanoseconds kIdleWait = std::chrono::milliseconds(50);
+constexpr std::size_t kMostWaiting_bytes = 64 * 1024;  // for one robot: half a second at 1 Mbit/s
 
 }  // namespace
 
@@ -22,7 +23,9 @@ Server::Server(const config::ServerConfig& config, Start start, link::Transport&
       clock_(clock),
       recorder_(start.recorder),
       ingest_(registry, config.max_robots),
-      stage_(config, std::move(start), registry, clock),
+      stage_(
+          config, std::move(start), [this](map::RobotId robot) { return delta_room(robot); }, registry,
+          clock),
       keyframe_to_delta_ms_(registry.histogram("server.keyframe_to_delta_ms")),
       deltas_refused_(registry.counter("server.deltas_refused")),
       last_keyframe_ns_(to_ns(clock.now())),
@@ -78,7 +81,8 @@ void Server::take_keyframe(link::Message message) {
 
 bool Server::map_step() {
   mapped_round_ns_ = to_ns(clock_.now());
-  // Keyframes first; between them the maps are made better, and with nothing to do the thread sleeps.
+  // Keyframes first; between them the maps are made better, and with nothing to do the thread sleeps until
+  // something may be due to be sent.
   auto keyframe = stage_.has_work() ? queue_.try_pop() : queue_.pop_for(kIdleWait);
   if (keyframe) {
     send(stage_.handle(*keyframe));
@@ -90,6 +94,11 @@ bool Server::map_step() {
   }
   save_if_due();
   return true;
+}
+
+std::size_t Server::delta_room(map::RobotId robot) const {
+  return kMostWaiting_bytes -
+         std::min(kMostWaiting_bytes, transport_.waiting_bytes(link::Lane::kDelta, robot));
 }
 
 void Server::save_if_due() {

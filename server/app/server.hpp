@@ -44,6 +44,7 @@ class Server {
   void hear(map::RobotId robot);
   void take_keyframe(link::Message message);
   bool map_step();
+  [[nodiscard]] std::size_t delta_room(map::RobotId robot) const;
   void save_if_due();
   void send(std::vector<OutgoingDelta> deltas);
   void send_heartbeat(const MapStatus& status, const link::LaneCounters& down);

@@ -30,7 +30,7 @@ std::vector<Bytes> DeltaStream::publish(const gaussian::GaussianCloud& cloud,
                                         std::span<const gaussian::GaussianId> removed,
                                         std::size_t byte_budget) {
   const std::lock_guard lock(mutex_);
-  Outbox out{byte_budget};
+  Outbox out{byte_budget, config_.max_deltas};
   for (const auto& id : removed) waiting_.erase(id);
   send_removed({removed.begin(), removed.end()}, out);
   if (snapshot_near_m_) begin_snapshot(cloud, out);
@@ -174,7 +174,7 @@ bool DeltaStream::send_update(const gaussian::GaussianCloud& cloud, std::span<co
 
 std::vector<Bytes> DeltaStream::repose(std::span<const map::PoseCorrection> corrections) {
   const std::lock_guard lock(mutex_);
-  Outbox out{0};
+  Outbox out{0, 0};
   for (std::size_t first = 0; first < corrections.size(); first += map::kMaxPoseCorrections) {
     const auto part =
         corrections.subspan(first, std::min(map::kMaxPoseCorrections, corrections.size() - first));
@@ -185,7 +185,7 @@ std::vector<Bytes> DeltaStream::repose(std::span<const map::PoseCorrection> corr
 
 std::vector<Bytes> DeltaStream::mask(const map::MaskBody& mask) {
   const std::lock_guard lock(mutex_);
-  Outbox out{0};
+  Outbox out{0, 0};
   (void)emit({{}, mask}, out);
   return std::move(out.deltas);
 }

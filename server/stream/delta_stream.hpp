@@ -25,6 +25,7 @@ struct DeltaStreamConfig {
   map::MapUuid map;
   map::Epoch epoch;
   std::size_t max_rows = 4096;                         ///< Gaussians in one delta, 1..65536
+  std::size_t max_deltas = 32;                         ///< about so many at one call, 1..; the rest waits
   std::size_t ring_deltas = 512;                       ///< kept for resends
   std::size_t ring_bytes = std::size_t{16} << 20U;     ///< the same
   std::size_t window_bytes = std::size_t{256} << 10U;  ///< of chunks on their way to the robot

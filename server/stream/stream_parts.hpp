@@ -9,11 +9,12 @@ namespace edgesplat::stream {
 /// The deltas of one call.
 struct DeltaStream::Outbox {
   std::size_t budget_bytes;
+  std::size_t most_deltas;
   std::vector<Bytes> deltas = {};
   std::size_t bytes = 0;
   std::size_t last_bytes = 0;  ///< of the last delta
 
-  [[nodiscard]] bool full() const { return bytes >= budget_bytes; }
+  [[nodiscard]] bool full() const { return bytes >= budget_bytes || deltas.size() >= most_deltas; }
 };
 
 /// What became of the changed Gaussians.

@@ -3,14 +3,13 @@
 #include "robot/map/resident_map.hpp"
 #include "server/stream/delta_stream.hpp"
 #include "server/stream/map_uuid.hpp"
+#include "test/integration/changing_map.hpp"
 #include "test/integration/delta_faults.hpp"
-#include "test/support/map_samples.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <string>
 
@@ -24,8 +23,11 @@ constexpr test::Faults kBad{0.05, 0.03, 0.01, 0.01, 0.08};
 class Bench {
  public:
   explicit Bench(std::uint64_t seed, std::size_t budget_bytes = std::size_t{512} << 20U)
-      : random_(seed), down_(kBad, seed + 1), up_(kBad, seed + 2), robot_(robot_config(budget_bytes)) {
-    cloud_ = test::random_gaussians(0, 1);
+      : random_(seed),
+        map_(seed + 3),
+        down_(kBad, seed + 1),
+        up_(kBad, seed + 2),
+        robot_(robot_config(budget_bytes)) {
     start_server();
   }
 
@@ -34,14 +36,14 @@ class Bench {
     ++epoch_;
     stream::DeltaStreamConfig config;
     config.robot.value = 1;
-    config.map = map_;
+    config.map = name_;
     config.epoch.value = epoch_;
     config.max_rows = 300;
     config.ring_deltas = 200;
     config.window_bytes = 20000;
     stream_ = std::make_unique<stream::DeltaStream>(config);
     hash_at_.clear();
-    publish(all_rows());
+    publish(map_.all_rows());
   }
   void set_faults(const test::Faults& faults) {
     down_.set_faults(faults);
@@ -68,7 +70,7 @@ class Bench {
   void move_robot(const Eigen::Vector3f& p_in_map_m) { robot_.robot_at(p_in_map_m); }
   [[nodiscard]] const ResidentMap& robot() const { return robot_; }
   [[nodiscard]] const stream::DeltaStream& server() const { return *stream_; }
-  [[nodiscard]] const gaussian::GaussianCloud& cloud() const { return cloud_; }
+  [[nodiscard]] const gaussian::GaussianCloud& cloud() const { return map_.cloud(); }
   [[nodiscard]] std::size_t flipped() const { return down_.flipped(); }
   /// Robot's hashes that could be compared with the server's at the same delta, and agreed.
   [[nodiscard]] std::size_t checked() const { return checked_; }
@@ -79,38 +81,17 @@ class Bench {
     config.budget_bytes = budget_bytes;
     return config;
   }
-  [[nodiscard]] std::vector<std::uint32_t> all_rows() const {
-    std::vector<std::uint32_t> rows(cloud_.size());
-    std::iota(rows.begin(), rows.end(), 0U);
-    return rows;
-  }
-
   void publish(const std::vector<std::uint32_t>& changed) {
-    for (auto& delta : stream_->publish(cloud_, changed, removed_, 20000)) down_.send(std::move(delta), now_);
-    removed_.clear();
+    for (auto& delta : stream_->publish(map_.cloud(), changed, map_.take_removed(), 20000))
+      down_.send(std::move(delta), now_);
     hash_at_[stream_->position().seq] = stream_->position().map_hash;
   }
 
-  /// New Gaussians, moved ones, gone ones, now and then a corrected pose.
   void change_map() {
-    auto fresh = test::random_gaussians(60, ++births_);
-    for (std::size_t row = 0; row < fresh.size(); ++row) {
-      fresh.ids[row] = gaussian::GaussianId(40000, births_ * 1000 + row);
-      cloud_.append_row(fresh, row);
-    }
-    for (float& v : cloud_.means_m) v += static_cast<float>(random_.uniform(-0.1, 0.1));
-    for (std::size_t i = 0; i < 5 && cloud_.size() > 100; ++i) {
-      removed_.push_back(cloud_.ids[i]);
-      cloud_.copy_row(cloud_.size() - 1, i);
-      cloud_.resize(cloud_.size() - 1);
-    }
-    if (births_ % 20 == 0) correct_pose();
-  }
-  void correct_pose() {
-    PoseCorrection correction{3, births_ / 20, {}, {}};
-    correction.new_map_from_body.translation_m = random_.vector(0.5);
-    correction.new_map_from_body.rotation = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ());
-    for (auto& delta : stream_->repose(std::span(&correction, 1))) down_.send(std::move(delta), now_);
+    map_.change();
+    const auto correction = map_.correction();
+    if (!correction) return;
+    for (auto& delta : stream_->repose(std::span(&*correction, 1))) down_.send(std::move(delta), now_);
   }
 
   void step(bool changing) {
@@ -118,7 +99,7 @@ class Bench {
     now_ += from_seconds(kStep_s);
     if (steps_ % 10 == 0) {
       if (changing) change_map();
-      publish(changing ? all_rows() : std::vector<std::uint32_t>{});
+      publish(changing ? map_.all_rows() : std::vector<std::uint32_t>{});
     }
     for (const auto& bytes : up_.arrived(now_)) {
       const auto request = decode_map_request(bytes);
@@ -148,13 +129,11 @@ class Bench {
   }
 
   test::Random random_;
+  test::ChangingMap map_;
   HostTime now_{};
   int steps_ = 0;
-  std::uint32_t births_ = 0;
   std::uint32_t epoch_ = 0;
-  MapUuid map_ = stream::make_map_uuid();
-  gaussian::GaussianCloud cloud_;
-  std::vector<gaussian::GaussianId> removed_;
+  MapUuid name_ = stream::make_map_uuid();
   std::unique_ptr<stream::DeltaStream> stream_;
   test::FaultyWay down_;
   test::FaultyWay up_;

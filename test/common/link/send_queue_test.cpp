@@ -148,6 +148,26 @@ TEST(SendQueue, TheWindowIsSharedByBulkLanesAndNotByUrgentOnes) {
   EXPECT_EQ(queue.next(kAll, kNow)->lane, Lane::kRequest);
 }
 
+TEST(SendQueue, TellsWhatWaitsForEachRobotAndTheMostThatEverDid) {
+  SendQueue queue(7, {});
+  queue.push(Lane::kDelta, kRobot, message_bytes(100));
+  queue.push(Lane::kDelta, map::RobotId{2}, message_bytes(1000));
+  EXPECT_EQ(queue.waiting_bytes(Lane::kDelta, kRobot), 100U);
+  EXPECT_EQ(queue.waiting_bytes(Lane::kDelta, map::RobotId{2}), 1000U);
+  EXPECT_EQ(queue.waiting_bytes(Lane::kKeyframe, kRobot), 0U);
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(queue.next(kAll, kNow));
+    queue.sent(kNow);
+  }
+  EXPECT_EQ(queue.waiting_bytes(Lane::kDelta, map::RobotId{2}), 0U);
+  const LaneCounters delta = of(queue.counters(), Lane::kDelta);
+  EXPECT_EQ(delta.queued_messages, 0U);
+  EXPECT_EQ(delta.most_queued_messages, 2U);
+  EXPECT_EQ(delta.most_queued_bytes, 1100U);
+  EXPECT_EQ(delta.most_flying_messages, 1U);
+  EXPECT_EQ(delta.most_flying_bytes, 1000U);
+}
+
 TEST(SendQueue, CloseEndsWaiting) {
   SendQueue queue(7, {});
   queue.push(Lane::kKeyframe, kRobot, message_bytes(10));

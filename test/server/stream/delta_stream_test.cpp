@@ -204,9 +204,22 @@ TEST(DeltaStream, ResendsWhatItKeepsByteForByte) {
   EXPECT_TRUE(stream.answer(other_epoch, HostTime{}).empty());
 }
 
+TEST(DeltaStream, SendsNoMoreThanSoManyDeltasAtOnceAndGoesOn) {
+  DeltaStreamConfig config = config_of(10);
+  config.max_deltas = 7;
+  DeltaStream stream(config);
+  const auto cloud = test::random_gaussians(200, 1);
+  EXPECT_EQ(stream.publish(cloud, all_rows(cloud), {}, kPlenty_bytes).size(), 7U);
+  EXPECT_EQ(stream.counters().waiting, 130U);
+  EXPECT_EQ(stream.publish(cloud, {}, {}, kPlenty_bytes).size(), 7U);
+  EXPECT_EQ(stream.publish(cloud, {}, {}, kPlenty_bytes).size(), 6U);
+  EXPECT_EQ(stream.counters().waiting, 0U);
+}
+
 TEST(DeltaStream, ARingThatHasForgottenLeadsToASnapshot) {
   DeltaStreamConfig config = config_of(10);
   config.ring_deltas = 5;
+  config.max_deltas = 1000;
   DeltaStream stream(config);
   const auto cloud = test::random_gaussians(1000, 1);
   (void)stream.publish(cloud, all_rows(cloud), {}, kPlenty_bytes);
