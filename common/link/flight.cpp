@@ -21,6 +21,12 @@ bool Flight::has_unsent() const {
   return !trains_.empty() && trains_.back().next_unsent < trains_.back().header.count;
 }
 
+std::size_t Flight::unsent_bytes() const {
+  if (!has_unsent()) return 0;
+  const Train& last = trains_.back();
+  return last.message.size() - std::min(last.message.size(), kChunk_bytes * last.next_unsent);
+}
+
 std::size_t Flight::size_of(const Train& train, std::uint32_t chunk) const {
   return chunk_at(train.message, chunk).size();
 }

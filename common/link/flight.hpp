@@ -62,6 +62,8 @@ class Flight {
   [[nodiscard]] bool empty() const { return trains_.empty(); }
   [[nodiscard]] bool has_unsent() const;
   [[nodiscard]] std::size_t bytes_on_the_way() const { return bytes_on_the_way_; }
+  /// Of begun messages, what was not sent even once.
+  [[nodiscard]] std::size_t unsent_bytes() const;
   [[nodiscard]] std::size_t held_bytes() const { return held_bytes_; }
   [[nodiscard]] std::size_t trains() const { return trains_.size(); }
   [[nodiscard]] std::uint64_t given_up() const { return given_up_; }

@@ -54,6 +54,9 @@ class LinkEnd final : public Transport {
   std::optional<Message> receive(nanoseconds timeout) override;
   [[nodiscard]] bool connected() const override { return connected_.load(); }
   [[nodiscard]] LinkCounters counters() const override;
+  std::vector<std::vector<std::byte>> withdraw(Lane lane, map::RobotId robot) override {
+    return sending_.withdraw(lane, robot);
+  }
   [[nodiscard]] std::size_t waiting_bytes(Lane lane, map::RobotId robot) const override {
     return sending_.waiting_bytes(lane, robot);
   }

@@ -16,6 +16,7 @@ void record(metrics::Registry& registry, const LinkCounters& counters) {
         {"messages_offered", of.messages_offered},
         {"messages_dropped", of.messages_dropped},
         {"messages_replaced", of.messages_replaced},
+        {"messages_withdrawn", of.messages_withdrawn},
         {"messages_sent", of.messages_sent},
         {"messages_acked", of.messages_acked},
         {"messages_given_up", of.messages_given_up},
@@ -34,10 +35,11 @@ void record(metrics::Registry& registry, const LinkCounters& counters) {
     };
     for (const auto& [name, value] : events) registry.counter(prefix + name).add(value);
     const std::pair<const char*, std::size_t> levels[] = {
-        {"queued_messages", of.queued_messages},           {"queued_bytes", of.queued_bytes},
-        {"flying_messages", of.flying_messages},           {"flying_bytes", of.flying_bytes},
-        {"most_queued_messages", of.most_queued_messages}, {"most_queued_bytes", of.most_queued_bytes},
-        {"most_flying_messages", of.most_flying_messages}, {"most_flying_bytes", of.most_flying_bytes},
+        {"queued_messages", of.queued_messages},     {"queued_bytes", of.queued_bytes},
+        {"unsent_bytes", of.unsent_bytes},           {"flying_messages", of.flying_messages},
+        {"flying_bytes", of.flying_bytes},           {"most_queued_messages", of.most_queued_messages},
+        {"most_queued_bytes", of.most_queued_bytes}, {"most_flying_messages", of.most_flying_messages},
+        {"most_flying_bytes", of.most_flying_bytes},
     };
     for (const auto& [name, value] : levels) registry.gauge(prefix + name).set(static_cast<double>(value));
   }

@@ -221,6 +221,23 @@ std::size_t SendQueue::bulk_bytes_on_the_way(map::RobotId robot) const {
   return bytes;
 }
 
+std::vector<std::vector<std::byte>> SendQueue::withdraw(Lane lane, map::RobotId robot) {
+  std::vector<std::vector<std::byte>> taken;
+  {
+    const std::lock_guard lock(mutex_);
+    LaneState& from = state(lane);
+    for (Queued& queued : from.queue) {
+      if (queued.robot != robot) continue;
+      from.bytes -= queued.bytes.size();
+      taken.push_back(std::move(queued.bytes));
+    }
+    std::erase_if(from.queue, [&](const Queued& queued) { return queued.robot == robot; });
+    from.counters.messages_withdrawn += taken.size();
+  }
+  drained_.notify_all();
+  return taken;
+}
+
 std::size_t SendQueue::waiting_bytes(Lane lane, map::RobotId robot) const {
   const std::lock_guard lock(mutex_);
   std::size_t bytes = 0;
@@ -284,12 +301,14 @@ LinkCounters SendQueue::counters() const {
     of = state(lane).counters;
     of.queued_messages = state(lane).queue.size();
     of.queued_bytes = state(lane).bytes;
+    of.unsent_bytes = state(lane).bytes;
     for (const auto& [robot, to] : state(lane).peers) {
       of.messages_acked += to.acked_before + to.acked_now;
       of.messages_given_up += to.flight.given_up();
       of.chunks_resent += to.flight.resent();
       of.flying_messages += to.flight.trains();
       of.flying_bytes += to.flight.held_bytes();
+      of.unsent_bytes += to.flight.unsent_bytes();
     }
   }
   return all;

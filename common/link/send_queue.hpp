@@ -62,6 +62,8 @@ class SendQueue {
   /// Bulk messages wait or have chunks that were never sent.
   [[nodiscard]] bool bulk_waits(map::RobotId robot) const;
   [[nodiscard]] std::size_t bulk_bytes_on_the_way(map::RobotId robot) const;
+  /// Takes back what has not begun to travel, oldest first.
+  std::vector<std::vector<std::byte>> withdraw(Lane lane, map::RobotId robot);
   /// Of messages that have not begun to travel.
   [[nodiscard]] std::size_t waiting_bytes(Lane lane, map::RobotId robot) const;
   /// When next() may have something without anything happening before.

@@ -28,17 +28,18 @@ struct Message {
 
 /// What became of the traffic of one lane since start. Every message is in one of the counters.
 struct LaneCounters {
-  std::uint64_t messages_offered = 0;   ///< send() was called
-  std::uint64_t messages_dropped = 0;   ///< shed from the full queue before any of it was sent
-  std::uint64_t messages_replaced = 0;  ///< overtaken by a newer one (newest_only lanes)
-  std::uint64_t messages_sent = 0;      ///< every chunk was handed to the network
-  std::uint64_t messages_acked = 0;     ///< the peer says it has them whole
-  std::uint64_t messages_given_up = 0;  ///< not acknowledged after the last try
-  std::uint64_t chunks_sent = 0;        ///< repetitions too
-  std::uint64_t chunks_resent = 0;      ///< of them repetitions
-  std::uint64_t bytes_sent = 0;         ///< payload, without headers
-  std::uint64_t write_timeouts = 0;     ///< the network took nothing for now; tried again
-  std::uint64_t write_failures = 0;     ///< the network refused a chunk for good; its message is lost
+  std::uint64_t messages_offered = 0;    ///< send() was called
+  std::uint64_t messages_dropped = 0;    ///< shed from the full queue before any of it was sent
+  std::uint64_t messages_replaced = 0;   ///< overtaken by a newer one (newest_only lanes)
+  std::uint64_t messages_withdrawn = 0;  ///< taken back before any of it was sent
+  std::uint64_t messages_sent = 0;       ///< every chunk was handed to the network
+  std::uint64_t messages_acked = 0;      ///< the peer says it has them whole
+  std::uint64_t messages_given_up = 0;   ///< not acknowledged after the last try
+  std::uint64_t chunks_sent = 0;         ///< repetitions too
+  std::uint64_t chunks_resent = 0;       ///< of them repetitions
+  std::uint64_t bytes_sent = 0;          ///< payload, without headers
+  std::uint64_t write_timeouts = 0;      ///< the network took nothing for now; tried again
+  std::uint64_t write_failures = 0;      ///< the network refused a chunk for good; its message is lost
   std::uint64_t chunks_received = 0;
   std::uint64_t bytes_received = 0;
   std::uint64_t chunks_corrupt = 0;  ///< failed header or CRC32C checks; the sender sends them again
@@ -48,6 +49,7 @@ struct LaneCounters {
   std::uint64_t inbox_drops = 0;         ///< received whole, but the reader did not keep up
   std::size_t queued_messages = 0;       ///< now
   std::size_t queued_bytes = 0;          ///< now
+  std::size_t unsent_bytes = 0;          ///< queued, and of begun messages what was never sent, now
   std::size_t flying_messages = 0;       ///< begun and not acknowledged, now
   std::size_t flying_bytes = 0;          ///< now
   std::size_t most_queued_messages = 0;  ///< at any time
@@ -78,6 +80,8 @@ class Transport {
   /// A peer that receives what this end sends is there.
   [[nodiscard]] virtual bool connected() const = 0;
   [[nodiscard]] virtual LinkCounters counters() const = 0;
+  /// Takes back the messages of the lane for `robot` (or the server) of which nothing was sent, oldest first.
+  virtual std::vector<std::vector<std::byte>> withdraw(Lane /*lane*/, map::RobotId /*robot*/) { return {}; }
   /// Of the lane, for `robot` (or the server), in the queue: nothing of them has begun to travel.
   [[nodiscard]] virtual std::size_t waiting_bytes(Lane /*lane*/, map::RobotId /*robot*/) const { return 0; }
   /// Of the way to `robot`, or to the server.

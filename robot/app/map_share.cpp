@@ -97,6 +97,7 @@ void MapShare::on_heartbeat(const link::Heartbeat& heartbeat) {
 
 bool MapShare::drain(nanoseconds timeout) {
   if (!control_->last().offload_wanted) return true;  // nothing is meant to go to the server
+  offload_->begin_draining();
   const HostTime start = clock_.now();
   if (!uplink_->drain(timeout)) return false;
   const nanoseconds left = timeout - (clock_.now() - start);

@@ -30,7 +30,8 @@ OffloadLoop::~OffloadLoop() {
 }
 
 void OffloadLoop::evaluate() {
-  const offload::OffloadRecord record = control_.evaluate();
+  offload::OffloadRecord record = control_.evaluate();
+  record.draining = draining_;
   const policy::Decision& decision = record.decision;
   targets_.uplink.set_mode(offload::to_link(decision.mode));
   targets_.transport.allow_probing(record.bandwidth_matters);

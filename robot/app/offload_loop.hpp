@@ -37,6 +37,8 @@ class OffloadLoop {
   void set_local_mapping(offload::LocalMapping* local);
   /// Hands a keyframe to the robot's own mapping where the mode is LOCAL.
   void submit(const std::shared_ptr<const map::Keyframe>& keyframe);
+  /// The run is over: what the timeline says from now on is no drive any more.
+  void begin_draining() { draining_ = true; }
   /// Mode changes so far.
   [[nodiscard]] std::uint64_t switches() const { return switches_.load(); }
 
@@ -49,6 +51,7 @@ class OffloadLoop {
   const nanoseconds period_;
   offload::ModeTimeline timeline_;
   std::atomic<std::uint64_t> switches_ = 0;
+  std::atomic<bool> draining_ = false;
   std::mutex local_mutex_;
   offload::LocalMapping* local_ = nullptr;
   std::mutex sleep_mutex_;

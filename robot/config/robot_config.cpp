@@ -37,7 +37,7 @@ void describe_uplink(ConfigReader& reader, uplink::UplinkConfig& c) {
   reader.field("queue_keyframes", c.queue_keyframes, {1, 1024}, "waiting keyframes, oldest dropped first");
   reader.field("heartbeat_period_s", c.heartbeat_period_s, Range{0.05, 10.0}, "to the server");
   reader.field("full_bytes_per_s", c.router.full_bytes_per_s, Range{0.0, 1e9},
-               "mean of the keyframes sent in FULL, 0 = no limit");
+               "mean of all that is sent in FULL, 0 = no limit");
   reader.field("lean_bytes_per_s", c.router.lean_bytes_per_s, Range{0.0, 1e9}, "and in LEAN");
   reader.field("lean_every", c.router.lean_every, {1, 100},
                "of the keyframes in LEAN one in so many is sent");

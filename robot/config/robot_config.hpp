@@ -52,9 +52,8 @@ struct OffloadSettings {
 /// The uplink's defaults with the budgets of link-and-offload.md.
 [[nodiscard]] inline uplink::UplinkConfig budgeted_uplink() {
   uplink::UplinkConfig config;
-  config.router.full_bytes_per_s = 280e3;  // of 300 kB/s, the rest for heartbeats, repetitions and probes
-  config.router.lean_bytes_per_s =
-      46e3;  // of 60 kB/s: acks, repeats and what FULL left in the queue come on top
+  config.router.full_bytes_per_s = 290e3;  // of 300 kB/s
+  config.router.lean_bytes_per_s = 57e3;   // of 60 kB/s
   config.full_keyframe_bytes = 120'000;
   config.lean_keyframe_bytes = 40'000;
   return config;

@@ -36,6 +36,7 @@ std::string timeline_line(const OffloadRecord& record, HostTime start) {
   line["heartbeat_age_s"] = or_null(age_s);
   line["bytes_up"] = record.bytes_up;
   line["bytes_down"] = record.bytes_down;
+  line["draining"] = record.draining;
   return line.dump();
 }
 

@@ -32,6 +32,7 @@ struct OffloadRecord {
   std::optional<double> shaped_bytes_per_s;  ///< the truth where the link is impaired on purpose; for reports
   std::uint64_t bytes_up = 0;                ///< since the start
   std::uint64_t bytes_down = 0;
+  bool draining = false;           ///< the run is over: what is left goes up at any cost
   bool offload_wanted = false;     ///< or done
   bool bandwidth_matters = false;  ///< a change of the bandwidth could change the decision: worth measuring
 };

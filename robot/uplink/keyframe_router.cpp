@@ -5,14 +5,14 @@
 namespace edgesplat::uplink {
 
 KeyframeRouter::KeyframeRouter(const RouterConfig& config, HostTime now)
-    : config_(config), account_(config.full_bytes_per_s, now) {}
+    : config_(config), account_(config.full_bytes_per_s, config.keyframe_bytes, now) {}
 
-void KeyframeRouter::set_mode(link::OffloadMode mode, HostTime now) {
+void KeyframeRouter::set_mode(link::OffloadMode mode, const LinkLoad& load, HostTime now) {
   if (mode == mode_) return;
   mode_ = mode;
   since_sent_ = 0;
   account_.set_rate(mode == link::OffloadMode::kLean ? config_.lean_bytes_per_s : config_.full_bytes_per_s,
-                    now);
+                    load, now);
 }
 
 bool KeyframeRouter::mode_sends_next() {
@@ -23,13 +23,14 @@ bool KeyframeRouter::mode_sends_next() {
   return sends;
 }
 
-KeyframeRouter::Way KeyframeRouter::route(bool mode_sends, std::size_t bytes, HostTime now) {
+KeyframeRouter::Way KeyframeRouter::route(bool mode_sends, std::size_t bytes, const LinkLoad& load,
+                                          HostTime now) {
   if (!mode_sends) return Way::kKeepMode;
-  return account_.spend(bytes, now) ? Way::kSend : Way::kKeepBudget;
+  return account_.covers(bytes, load, now) ? Way::kSend : Way::kKeepBudget;
 }
 
-bool KeyframeRouter::may_send_kept(std::size_t bytes, HostTime now) {
-  return mode_ != link::OffloadMode::kLocal && account_.spend(bytes, now);
+bool KeyframeRouter::may_send_kept(std::size_t bytes, const LinkLoad& load, HostTime now) {
+  return mode_ != link::OffloadMode::kLocal && account_.covers(bytes, load, now);
 }
 
 }  // namespace edgesplat::uplink

@@ -11,9 +11,10 @@
 namespace edgesplat::uplink {
 
 struct RouterConfig {
-  double full_bytes_per_s = 0.0;  ///< mean of what may be sent in FULL; 0: no limit
-  double lean_bytes_per_s = 0.0;  ///< and in LEAN
-  int lean_every = 3;             ///< of the keyframes in LEAN one in so many is sent
+  double full_bytes_per_s = 0.0;   ///< mean of all that the link sends in FULL; 0: no limit
+  double lean_bytes_per_s = 0.0;   ///< and in LEAN
+  int lean_every = 3;              ///< of the keyframes in LEAN one in so many is sent
+  std::size_t keyframe_bytes = 0;  ///< the budget may be saved up for one of this size
 };
 
 /// Says for each keyframe whether it is sent now or kept, by the mode and its budget of bytes. Pure;
@@ -27,15 +28,15 @@ class KeyframeRouter {
   };
 
   KeyframeRouter(const RouterConfig& config, HostTime now);
-  void set_mode(link::OffloadMode mode, HostTime now);
+  void set_mode(link::OffloadMode mode, const LinkLoad& load, HostTime now);
   [[nodiscard]] link::OffloadMode mode() const { return mode_; }
 
   /// A new keyframe, before it is encoded: whether the mode sends it at all.
   [[nodiscard]] bool mode_sends_next();
   /// It has so many bytes.
-  [[nodiscard]] Way route(bool mode_sends, std::size_t bytes, HostTime now);
+  [[nodiscard]] Way route(bool mode_sends, std::size_t bytes, const LinkLoad& load, HostTime now);
   /// A kept one may go out now.
-  [[nodiscard]] bool may_send_kept(std::size_t bytes, HostTime now);
+  [[nodiscard]] bool may_send_kept(std::size_t bytes, const LinkLoad& load, HostTime now);
 
  private:
   RouterConfig config_;

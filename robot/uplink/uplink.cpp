@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/uplink/uplink.hpp"
 
-#include "common/log/log.hpp"
-#include "common/map/keyframe_codec.hpp"
 #include "common/thread/bounded_queue.hpp"
 #include "common/thread/worker.hpp"
-#include "robot/uplink/slim_keyframe.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -28,8 +25,7 @@ class Uplink::Impl {
         transport_(transport),
         clock_(clock),
         heartbeat_(std::move(heartbeat)),
-        router_(config.router, clock.now()),
-        spool_(config.spool),
+        sender_(config, transport, clock),
         queue_({config.queue_keyframes}, thread::Overflow::kDropOldest),
         next_heartbeat_(clock.now()),
         worker_("uplink", [this](const std::stop_token& stop) { return step(stop); }) {}
@@ -80,77 +76,31 @@ class Uplink::Impl {
   bool step(const std::stop_token& stop) {
     if (clock_.now() >= next_heartbeat_) send_heartbeat();
     nanoseconds wait = std::max(nanoseconds(0), next_heartbeat_ - clock_.now());
-    if (!spool_.empty()) wait = std::min(wait, kSpoolPeriod);
+    if (!sender_.spool_empty()) wait = std::min(wait, kSpoolPeriod);
     const auto keyframe = queue_.pop_for(wait);
     if (stop.stop_requested()) return false;
-    router_.set_mode(mode_, clock_.now());
+    sender_.set_mode(mode_);
     if (keyframe && *keyframe) {
-      handle(**keyframe);
+      sender_.send(**keyframe);
     } else {
-      send_from_spool();
+      sender_.send_spooled(draining_);
     }
+    publish_counters();
     return true;
-  }
-
-  void handle(const map::Keyframe& keyframe) {
-    const bool mode_sends = router_.mode_sends_next();
-    const bool lean = router_.mode() == link::OffloadMode::kLean;
-    const std::size_t target = lean ? config_.lean_keyframe_bytes : config_.full_keyframe_bytes;
-    auto bytes = map::encode_keyframe(slim_keyframe(keyframe, target));
-    if (!bytes) {
-      EDGESPLAT_LOG_WARN("uplink", "keyframe refused", "id", keyframe.id.value, "why", bytes.error().context);
-      count([](UplinkCounters& c) { ++c.refused; });
-      return;
-    }
-    const std::size_t size = bytes->size();
-    const auto way = router_.route(mode_sends, size, clock_.now());
-    bool sent = false;
-    if (way == KeyframeRouter::Way::kSend) {
-      sent = transport_.send(link::Lane::kKeyframe, config_.robot, std::move(*bytes));
-    } else {
-      spool_.put(std::move(*bytes));
-    }
-    count([&](UplinkCounters& c) {
-      c.encoded_bytes += size;
-      if (way == KeyframeRouter::Way::kSend) {
-        ++(sent ? c.handed_on : c.refused);
-      } else {
-        ++(way == KeyframeRouter::Way::kKeepMode ? c.kept_by_mode : c.kept_by_budget);
-      }
-    });
-  }
-
-  /// The oldest, when nothing of ours waits for the network.
-  void send_from_spool() {
-    const auto size = spool_.next_bytes();
-    if (!size || router_.mode() == link::OffloadMode::kLocal || !link_is_idle()) return;
-    if (!draining_ && !router_.may_send_kept(*size, clock_.now())) return;
-    auto bytes = spool_.take();
-    if (!bytes) return;
-    const bool sent = transport_.send(link::Lane::kSpool, config_.robot, std::move(*bytes));
-    count([&](UplinkCounters& c) { ++(sent ? c.handed_on : c.refused); });
-  }
-
-  [[nodiscard]] bool link_is_idle() const {
-    const link::LinkCounters counters = transport_.counters();
-    const auto& keyframes = counters[link::index_of(link::Lane::kKeyframe)];
-    const auto& spooled = counters[link::index_of(link::Lane::kSpool)];
-    return keyframes.queued_messages + spooled.queued_messages + spooled.flying_messages == 0;
   }
 
   void send_heartbeat() {
     next_heartbeat_ = clock_.now() + from_seconds(config_.heartbeat_period_s);
     const link::Heartbeat heartbeat = heartbeat_ ? heartbeat_() : link::Heartbeat{};
     (void)transport_.send(link::Lane::kHeartbeat, config_.robot, link::encode_heartbeat(heartbeat));
-    count([](UplinkCounters& c) { ++c.heartbeats; });
+    const std::lock_guard lock(mutex_);
+    ++counters_.heartbeats;
   }
 
-  template <typename Change>
-  void count(const Change& change) {
+  void publish_counters() {
     {
       const std::lock_guard lock(mutex_);
-      change(counters_);
-      counters_.spool = spool_.counters();
+      static_cast<SenderCounters&>(counters_) = sender_.counters();
     }
     changed_.notify_all();
   }
@@ -161,8 +111,7 @@ class Uplink::Impl {
   const HeartbeatSource heartbeat_;
   std::atomic<link::OffloadMode> mode_ = link::OffloadMode::kFull;
   std::atomic<bool> draining_ = false;
-  KeyframeRouter router_;  ///< this and the spool: the worker's own
-  Spool spool_;
+  KeyframeSender sender_;  ///< the worker's own
   thread::BoundedQueue<std::shared_ptr<const map::Keyframe>> queue_;
   HostTime next_heartbeat_;
   mutable std::mutex mutex_;

@@ -51,6 +51,7 @@ ParsedLine parse_line(std::string_view text) {
   sample.true_bandwidth_bytes_per_s = number_or_unknown(line, "true_bandwidth_bytes_per_s");
   sample.bytes_up = number_or_unknown(line, "bytes_up");
   sample.bytes_down = number_or_unknown(line, "bytes_down");
+  sample.draining = line.contains("draining") && line["draining"] == true;
   sample.gaussians = number_or_unknown(line, "gaussians");
   return {sample, nullptr};
 }
@@ -116,7 +117,7 @@ ModeFigures figures_of(const ModeTimeline& timeline) {
     const std::size_t mode = index_of(before.mode);
     figures.seconds[mode] += duration_s;
     figures.switches += before.mode != after.mode ? 1 : 0;
-    up[mode].add(before.bytes_up, after.bytes_up, duration_s);
+    if (!after.draining) up[mode].add(before.bytes_up, after.bytes_up, duration_s);
     down.add(before.bytes_down, after.bytes_down, duration_s);
   }
   for (std::size_t mode = 0; mode < up.size(); ++mode) figures.bytes_up_per_s[mode] = up[mode].mean();

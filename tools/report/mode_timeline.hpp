@@ -30,6 +30,7 @@ struct ModeSample {
   double true_bandwidth_bytes_per_s = kUnknown;  ///< where the link is shaped on purpose
   double bytes_up = kUnknown;                    ///< since the start
   double bytes_down = kUnknown;
+  bool draining = false;        ///< the run is over: what is left goes up at any cost
   double gaussians = kUnknown;  ///< on the robot, where the run wrote it
 };
 
@@ -57,8 +58,9 @@ struct ModeSpan {
 struct ModeFigures {
   std::array<double, 3> seconds{};  ///< by index_of()
   std::size_t switches = 0;
-  std::array<std::optional<double>, 3> bytes_up_per_s;  ///< mean in each mode; nothing where it was not in it
-  std::optional<double> bytes_down_per_s;               ///< mean of the whole time line
+  /// Mean in each mode until the end of the input; nothing where it was not in it.
+  std::array<std::optional<double>, 3> bytes_up_per_s;
+  std::optional<double> bytes_down_per_s;  ///< mean of the whole time line
 };
 [[nodiscard]] ModeFigures figures_of(const ModeTimeline& timeline);
 

@@ -168,6 +168,24 @@ TEST(SendQueue, TellsWhatWaitsForEachRobotAndTheMostThatEverDid) {
   EXPECT_EQ(delta.most_flying_bytes, 1000U);
 }
 
+TEST(SendQueue, GivesBackOnlyWhatHasNotBegunAndCountsWhatIsUnsent) {
+  SendQueue queue(7, {});
+  queue.push(Lane::kKeyframe, kRobot, message_bytes(2 * kChunk_bytes, 1));
+  queue.push(Lane::kKeyframe, kRobot, message_bytes(100, 2));
+  queue.push(Lane::kKeyframe, map::RobotId{2}, message_bytes(100, 3));
+  queue.push(Lane::kKeyframe, kRobot, message_bytes(100, 4));
+  ASSERT_TRUE(queue.next(kAll, kNow));
+  queue.sent(kNow);
+  EXPECT_EQ(of(queue.counters(), Lane::kKeyframe).unsent_bytes, kChunk_bytes + 300);
+  const auto back = queue.withdraw(Lane::kKeyframe, kRobot);
+  EXPECT_EQ(back, (std::vector{message_bytes(100, 2), message_bytes(100, 4)}));
+  const LaneCounters counters = of(queue.counters(), Lane::kKeyframe);
+  EXPECT_EQ(counters.messages_withdrawn, 2U);
+  EXPECT_EQ(counters.queued_messages, 1U);
+  EXPECT_EQ(counters.queued_bytes, 100U);
+  EXPECT_EQ(counters.unsent_bytes, kChunk_bytes + 100);
+}
+
 TEST(SendQueue, CloseEndsWaiting) {
   SendQueue queue(7, {});
   queue.push(Lane::kKeyframe, kRobot, message_bytes(10));

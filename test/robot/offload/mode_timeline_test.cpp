@@ -28,6 +28,7 @@ TEST(ModeTimeline, ALineHasEveryFieldAndNullForTheUnknown) {
   record.situation.last_heartbeat = HostTime(std::chrono::milliseconds(11500));
   record.shaped_bytes_per_s = 125e3;
   record.bytes_up = 77;
+  record.draining = true;
   line = nlohmann::json::parse(timeline_line(record, HostTime{}));
   EXPECT_EQ(line["mode"], "LEAN");
   EXPECT_EQ(line["reason"], "latency");
@@ -37,6 +38,7 @@ TEST(ModeTimeline, ALineHasEveryFieldAndNullForTheUnknown) {
   EXPECT_EQ(line["true_bandwidth_bytes_per_s"], 125e3);
   EXPECT_EQ(line["heartbeat_age_s"], 0.5);
   EXPECT_EQ(line["bytes_up"], 77);
+  EXPECT_EQ(line["draining"], true);
 }
 
 TEST(ModeTimeline, AFileThatCannotBeWrittenDoesNoHarm) {

@@ -21,15 +21,15 @@ TEST(KeyframeRouter, FullSendsAllLeanEveryThirdLocalNone) {
   const auto sent_of_nine = [&] {
     std::string sent;
     for (int i = 0; i < 9; ++i)
-      sent += router.route(router.mode_sends_next(), 1000, at(1)) == Way::kSend ? 'x' : '.';
+      sent += router.route(router.mode_sends_next(), 1000, {}, at(1)) == Way::kSend ? 'x' : '.';
     return sent;
   };
   EXPECT_EQ(sent_of_nine(), "xxxxxxxxx");
-  router.set_mode(OffloadMode::kLean, at(1));
+  router.set_mode(OffloadMode::kLean, {}, at(1));
   EXPECT_EQ(sent_of_nine(), "x..x..x..");
-  router.set_mode(OffloadMode::kLocal, at(1));
+  router.set_mode(OffloadMode::kLocal, {}, at(1));
   EXPECT_EQ(sent_of_nine(), ".........");
-  EXPECT_FALSE(router.may_send_kept(1, at(100)));
+  EXPECT_FALSE(router.may_send_kept(1, {}, at(100)));
 }
 
 /// Bytes a second sent in a minute when a keyframe of `bytes` comes `per_s` times a second and what is kept
@@ -39,22 +39,22 @@ double mean_sent(OffloadMode mode, std::size_t bytes, double per_s) {
   config.full_bytes_per_s = 280e3;
   config.lean_bytes_per_s = 54e3;
   KeyframeRouter router(config, at(0));
-  router.set_mode(mode, at(0));
-  double sent = 0.0;
+  router.set_mode(mode, {}, at(0));
+  LinkLoad load;  // what is sent is gone at once
   int kept = 0;
   double next_keyframe_s = 0.0;
   for (double t = 0.0; t < 60.0; t += 0.05) {
     if (t >= next_keyframe_s) {
       next_keyframe_s += 1.0 / per_s;
-      const bool now = router.route(router.mode_sends_next(), bytes, at(t)) == Way::kSend;
-      sent += now ? static_cast<double>(bytes) : 0.0;
+      const bool now = router.route(router.mode_sends_next(), bytes, load, at(t)) == Way::kSend;
+      load.sent_bytes += now ? bytes : 0;
       kept += now ? 0 : 1;
-    } else if (kept > 0 && router.may_send_kept(bytes, at(t))) {
-      sent += static_cast<double>(bytes);
+    } else if (kept > 0 && router.may_send_kept(bytes, load, at(t))) {
+      load.sent_bytes += bytes;
       --kept;
     }
   }
-  return sent / 60.0;
+  return static_cast<double>(load.sent_bytes) / 60.0;
 }
 
 TEST(KeyframeRouter, KeepsTheBudgetOfTheModeWhateverComes) {

@@ -53,6 +53,14 @@ TEST(ModeTimeline, FiguresOfAKnownRun) {
   EXPECT_EQ(figures.bytes_down_per_s, 50.0);
 }
 
+TEST(ModeTimeline, WhatIsSentAfterTheEndOfTheInputIsNoMean) {
+  std::string last = line_of(3, "LEAN", 9000, 0);
+  last.insert(last.size() - 2, R"(,"draining":true)");
+  const ModeFigures figures = figures_of(parse(line_of(0, "LEAN", 0, 0) + line_of(2, "LEAN", 100, 0) + last));
+  EXPECT_EQ(figures.bytes_up_per_s[index_of(RunMode::kLean)], 50.0);
+  EXPECT_EQ(figures.seconds[index_of(RunMode::kLean)], 3.0);
+}
+
 TEST(ModeTimeline, SpansMergeEqualModesAndTouch) {
   const auto spans = spans_of(parse(line_of(0, "FULL", 0, 0) + line_of(1, "FULL", 0, 0) +
                                     line_of(2, "LOCAL", 0, 0) + line_of(4, "LOCAL", 0, 0)));
