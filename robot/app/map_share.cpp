@@ -13,18 +13,19 @@ namespace edgesplat::app {
 
 Result<std::unique_ptr<MapShare>> MapShare::create(const robot_config::RobotConfig& config,
                                                    const Clock& clock,
-                                                   const std::filesystem::path& robot_folder) {
+                                                   const std::filesystem::path& robot_folder,
+                                                   MapShareParties parties) {
   EDGESPLAT_TRY(const std::shared_ptr<link::DdsDomain> domain, link::DdsDomain::open(config.server.link));
   link::DdsTransportOptions options;
   options.role = link::Role::kRobot;
   options.robot = config.uplink.robot;
   EDGESPLAT_TRY(std::unique_ptr<link::Transport> transport, link::open_dds_transport(domain, options, clock));
-  return std::make_unique<MapShare>(config, std::move(transport), clock, robot_folder);
+  return std::make_unique<MapShare>(config, std::move(transport), clock, robot_folder, std::move(parties));
 }
 
 MapShare::MapShare(const robot_config::RobotConfig& config, std::unique_ptr<link::Transport> transport,
-                   const Clock& clock, const std::filesystem::path& robot_folder)
-    : clock_(clock), transport_(std::move(transport)), resident_(config.map) {
+                   const Clock& clock, const std::filesystem::path& robot_folder, MapShareParties parties)
+    : clock_(clock), transport_(std::move(transport)), resident_(config.map), parties_(std::move(parties)) {
   offload::OffloadSources sources;
   sources.link = [this, robot = config.uplink.robot] { return transport_->quality(robot); };
   sources.counters = [this] { return transport_->counters(); };
@@ -36,6 +37,7 @@ MapShare::MapShare(const robot_config::RobotConfig& config, std::unique_ptr<link
   uplink::DownlinkHandlers handlers;
   handlers.on_delta = [this](std::span<const std::byte> delta) {
     resident_.apply(delta, clock_.now());
+    tell_resident();
     send_requests();
   };
   handlers.on_heartbeat = [this](const link::Heartbeat& heartbeat) {
@@ -44,6 +46,7 @@ MapShare::MapShare(const robot_config::RobotConfig& config, std::unique_ptr<link
   };
   handlers.on_idle = [this] {
     resident_.publish_if_due(clock_.now());
+    tell_resident();
     send_requests();
   };
   downlink_ = std::make_unique<uplink::Downlink>(*transport_, std::move(handlers));
@@ -51,9 +54,10 @@ MapShare::MapShare(const robot_config::RobotConfig& config, std::unique_ptr<link
   if (!robot_folder.empty()) uplink_config.spool.folder = robot_folder / "spool";
   uplink_ =
       std::make_unique<uplink::Uplink>(uplink_config, *transport_, clock_, [this] { return heartbeat(); });
-  offload_ = std::make_unique<OffloadLoop>(
-      *control_, OffloadTargets{*transport_, *uplink_}, config.offload.policy.evaluation_period_s,
-      robot_folder.empty() ? robot_folder : robot_folder / "modes.jsonl", clock_);
+  offload_ = std::make_unique<OffloadLoop>(*control_, OffloadTargets{*transport_, *uplink_, parties_.local},
+                                           config.offload.policy.evaluation_period_s,
+                                           robot_folder.empty() ? robot_folder : robot_folder / "modes.jsonl",
+                                           clock_);
 }
 
 MapShare::~MapShare() = default;
@@ -107,9 +111,18 @@ bool MapShare::drain(nanoseconds timeout) {
   return agreement_changed_.wait_for(lock, left, [this] { return agreeing_heartbeats_ >= 2; });
 }
 
-std::shared_ptr<const gaussian::GaussianCloud> MapShare::newest_snapshot() {
-  resident_.publish_if_due(clock_.now() + std::chrono::hours(1));  // due whatever the pace
-  return resident_.snapshot();
+void MapShare::publish_newest() {
+  resident_.publish_now(clock_.now());
+  tell_resident();
+}
+
+void MapShare::tell_resident() {
+  if (!parties_.on_resident) return;
+  const std::lock_guard lock(told_mutex_);
+  auto newest = resident_.snapshot();
+  if (newest == told_) return;
+  told_ = newest;
+  parties_.on_resident(std::move(newest), resident_.map_from_odom());
 }
 
 void MapShare::publish_counters(metrics::Registry& metrics) const {

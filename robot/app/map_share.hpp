@@ -14,10 +14,19 @@
 
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 
 namespace edgesplat::app {
+
+/// Who else on the robot is concerned with the shared map; all must outlive it.
+struct MapShareParties {
+  offload::LocalMapping* local = nullptr;  ///< the robot's own mapping, for LOCAL; null: none
+  /// Told what the server made whenever a new snapshot of it is there; on one thread at a time. May be empty.
+  std::function<void(std::shared_ptr<const gaussian::GaussianCloud>, const map::MapFromOdom&)> on_resident =
+      {};
+};
 
 /// The robot's side of the shared map: keyframes go up as the offloading decision says, deltas come down into
 /// the resident map. Nothing here makes a caller wait for the server. Thread-safe.
@@ -26,10 +35,11 @@ class MapShare {
   /// kUnavailable, kIo where the transport cannot be opened (wrong interface, ...).
   /// `robot_folder`: of the run, for the timeline of modes and the spool; empty: neither is written.
   static Result<std::unique_ptr<MapShare>> create(const robot_config::RobotConfig& config, const Clock& clock,
-                                                  const std::filesystem::path& robot_folder = {});
+                                                  const std::filesystem::path& robot_folder = {},
+                                                  MapShareParties parties = {});
   /// Over a transport of the caller's, for tests.
   MapShare(const robot_config::RobotConfig& config, std::unique_ptr<link::Transport> transport,
-           const Clock& clock, const std::filesystem::path& robot_folder = {});
+           const Clock& clock, const std::filesystem::path& robot_folder = {}, MapShareParties parties = {});
   ~MapShare();
   MapShare(const MapShare&) = delete;
   MapShare& operator=(const MapShare&) = delete;
@@ -37,14 +47,9 @@ class MapShare {
   void submit(std::shared_ptr<const map::Keyframe> keyframe);
   /// A picture took so long to draw.
   void on_picture(double render_ms) { control_->on_picture(render_ms); }
-  /// The robot's own mapping, for LOCAL; null for none. Must outlive this or be taken away again.
-  void set_local_mapping(offload::LocalMapping* local) { offload_->set_local_mapping(local); }
   [[nodiscard]] policy::Mode mode() const { return control_->last().decision.mode; }
-  [[nodiscard]] std::shared_ptr<const gaussian::GaussianCloud> snapshot() const {
-    return resident_.snapshot();
-  }
-  /// The same with everything that was applied, whatever the publishing pace.
-  [[nodiscard]] std::shared_ptr<const gaussian::GaussianCloud> newest_snapshot();
+  /// Tells on_resident everything that was applied, whatever the publishing pace.
+  void publish_newest();
   [[nodiscard]] map::MapFromOdom map_from_odom() const { return resident_.map_from_odom(); }
   [[nodiscard]] map::ResidentMapCounters map_counters() const { return resident_.counters(); }
 
@@ -56,11 +61,15 @@ class MapShare {
  private:
   void on_heartbeat(const link::Heartbeat& heartbeat);
   void send_requests();
+  void tell_resident();
   [[nodiscard]] link::Heartbeat heartbeat() const;
 
   const Clock& clock_;
   std::unique_ptr<link::Transport> transport_;
   map::ResidentMap resident_;
+  const MapShareParties parties_;
+  std::mutex told_mutex_;
+  std::shared_ptr<const gaussian::GaussianCloud> told_;  ///< to on_resident
   std::mutex agreement_mutex_;
   std::condition_variable agreement_changed_;
   int agreeing_heartbeats_ = 0;  ///< in a row that say: nothing queued, and all that was made is applied here

@@ -35,11 +35,8 @@ void OffloadLoop::evaluate() {
   const policy::Decision& decision = record.decision;
   targets_.uplink.set_mode(offload::to_link(decision.mode));
   targets_.transport.allow_probing(record.bandwidth_matters);
-  {
-    const std::lock_guard lock(local_mutex_);
-    if (local_ != nullptr)
-      local_->set_work(decision.mode == policy::Mode::kLocal, decision.prune_and_compress);
-  }
+  if (targets_.local != nullptr)
+    targets_.local->set_work(decision.mode == policy::Mode::kLocal, decision.prune_and_compress);
   timeline_.add(record);
   if (decision.changed) {
     ++switches_;
@@ -56,15 +53,9 @@ void OffloadLoop::log_change(const offload::OffloadRecord& record) {
                      s.round_trip_ms.value_or(0.0));
 }
 
-void OffloadLoop::set_local_mapping(offload::LocalMapping* local) {
-  const std::lock_guard lock(local_mutex_);
-  local_ = local;
-}
-
 void OffloadLoop::submit(const std::shared_ptr<const map::Keyframe>& keyframe) {
-  if (control_.last().decision.mode != policy::Mode::kLocal) return;
-  const std::lock_guard lock(local_mutex_);
-  if (local_ != nullptr) local_->submit(keyframe);
+  if (targets_.local == nullptr || control_.last().decision.mode != policy::Mode::kLocal) return;
+  targets_.local->submit(keyframe);
 }
 
 }  // namespace edgesplat::app

@@ -20,6 +20,7 @@ namespace edgesplat::app {
 struct OffloadTargets {
   link::Transport& transport;
   uplink::Uplink& uplink;
+  offload::LocalMapping* local = nullptr;  ///< null: none
 };
 
 /// Evaluates the offloading decision on a thread of its own and applies it: the uplink's mode, probing, the
@@ -33,8 +34,6 @@ class OffloadLoop {
   OffloadLoop(const OffloadLoop&) = delete;
   OffloadLoop& operator=(const OffloadLoop&) = delete;
 
-  /// The robot's own mapping, null for none; must outlive the loop or be taken away again.
-  void set_local_mapping(offload::LocalMapping* local);
   /// Hands a keyframe to the robot's own mapping where the mode is LOCAL.
   void submit(const std::shared_ptr<const map::Keyframe>& keyframe);
   /// The run is over: what the timeline says from now on is no drive any more.
@@ -52,8 +51,6 @@ class OffloadLoop {
   offload::ModeTimeline timeline_;
   std::atomic<std::uint64_t> switches_ = 0;
   std::atomic<bool> draining_ = false;
-  std::mutex local_mutex_;
-  offload::LocalMapping* local_ = nullptr;
   std::mutex sleep_mutex_;
   std::condition_variable_any sleep_;
   std::optional<thread::Worker> worker_;

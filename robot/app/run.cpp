@@ -6,7 +6,7 @@
 #include "common/log/log.hpp"
 #include "common/sensor/rig_config.hpp"
 #include "robot/app/live_input.hpp"
-#include "robot/app/map_share.hpp"
+#include "robot/app/live_map.hpp"
 #include "robot/app/pipeline.hpp"
 #include "robot/app/progress.hpp"
 #include "robot/app/recording.hpp"
@@ -65,20 +65,18 @@ Status run_sensors(const Options& o, const robot_config::RobotConfig& config, co
 
 /// The threaded run: live sensors or a paced recording.
 Status run_threads(const Options& o, const robot_config::RobotConfig& config, const sensor::Rig& rig,
-                   std::optional<replay::ReplaySource>& recording, SensingChain& chain, MapShare* share,
+                   std::optional<replay::ReplaySource>& recording, SensingChain& chain, LiveMap& map,
                    const Clock& clock, metrics::Registry& metrics, std::stop_token stop) {
   std::optional<RenderLoop> render;
-  if (share != nullptr && rig.camera) {
+  if (rig.camera) {
     render.emplace(
-        RenderLoopConfig{config.render.target_hz}, *rig.camera, [share] { return share->snapshot(); }, clock,
-        metrics, [share](double render_ms) { share->on_picture(render_ms); });
+        RenderLoopConfig{config.render.target_hz}, *rig.camera, [&map] { return map.snapshot(); }, clock,
+        metrics, [&map](double render_ms) { map.on_picture(render_ms); });
   }
   Progress progress(o.json_progress, clock);
   const auto on_pose = [&](const TrackedFrame& frame) {
     progress.on_pose(frame.group);
-    if (render && share != nullptr) {
-      render->show_from(share->map_from_odom().map_from_odom * frame.group.odom_from_body);
-    }
+    if (render) render->show_from(map.map_from_odom() * frame.group.odom_from_body);
   };
   const bool live = !recording.has_value();
   Pipeline pipeline(chain, live ? Backpressure::kDropOldest : Backpressure::kWait, on_pose, metrics);
@@ -125,27 +123,22 @@ void report_recording(const replay::ReplaySource& recording, metrics::Registry& 
 }
 
 Status finish(const Options& o, const robot_config::RobotConfig& config,
-              const std::optional<RunFolder>& folder, const SensingChain& chain, MapShare* share,
+              const std::optional<RunFolder>& folder, const SensingChain& chain, LiveMap& map,
               metrics::Registry& metrics) {
-  auto cloud = std::make_shared<const gaussian::GaussianCloud>();
-  geometry::RigidTransform map_from_odom;
-  if (share != nullptr) {
-    // As it is when the input ends: what a robot would have in its hands.
-    const auto at_input_end = share->newest_snapshot();
-    if (folder) EDGESPLAT_TRY_STATUS(folder->write_map_at_input_end(*at_input_end));
-    if (!share->drain(from_seconds(config.server.drain_s))) {
-      EDGESPLAT_LOG_WARN("map", "server did not answer everything", "waited_s", config.server.drain_s);
-    }
-    share->publish_counters(metrics);
-    cloud = share->newest_snapshot();
-    map_from_odom = share->map_from_odom().map_from_odom;
+  // As it is when the input ends: what a robot would have in its hands.
+  const auto at_input_end = map.newest_snapshot();
+  if (folder) EDGESPLAT_TRY_STATUS(folder->write_map_at_input_end(*at_input_end));
+  if (!map.drain(from_seconds(config.server.drain_s))) {
+    EDGESPLAT_LOG_WARN("map", "server did not answer everything", "waited_s", config.server.drain_s);
   }
+  const auto cloud = map.newest_snapshot();
+  map.publish_counters(metrics);
   chain.publish_counters(metrics);
   const RunLog& log = chain.keyframes().log();
   EDGESPLAT_LOG_INFO("robot", "run over", "poses", log.poses(), "span_s", log.span_s(), "gaussians",
                      cloud->size());
   if (!folder) return {};
-  EDGESPLAT_TRY_STATUS(folder->write_results(chain.keyframes(), *cloud, map_from_odom));
+  EDGESPLAT_TRY_STATUS(folder->write_results(chain.keyframes(), *cloud, map.map_from_odom()));
   EDGESPLAT_TRY_STATUS(folder->write_metrics(metrics));
   EDGESPLAT_LOG_INFO("robot", "run folder written", "path", o.out.string());
   return {};
@@ -173,20 +166,15 @@ Status run_robot(const Options& o, std::stop_token stop) {
   }
   const SteadyClock clock;
   metrics::Registry metrics;
-  std::unique_ptr<MapShare> share;
-  if (config.server.enabled) {
-    EDGESPLAT_TRY(share, MapShare::create(config, clock, folder ? folder->robot_folder() : ""));
-  }
-  const auto sink = [&](std::shared_ptr<const map::Keyframe> keyframe) {
-    if (share) share->submit(std::move(keyframe));
-  };
+  EDGESPLAT_TRY(const auto map,
+                LiveMap::create(config, o.lockstep, clock, folder ? folder->robot_folder() : "", metrics));
+  const auto sink = [&](std::shared_ptr<const map::Keyframe> keyframe) { map->submit(std::move(keyframe)); };
   EDGESPLAT_TRY(const auto chain, SensingChain::create(config, rig, sink, clock, metrics));
-  const Status run = o.lockstep
-                         ? run_lockstep(o, *recording, *chain, stop)
-                         : run_threads(o, config, rig, recording, *chain, share.get(), clock, metrics, stop);
+  const Status run = o.lockstep ? run_lockstep(o, *recording, *chain, stop)
+                                : run_threads(o, config, rig, recording, *chain, *map, clock, metrics, stop);
   if (recording) report_recording(*recording, metrics);
   // What was mapped so far is kept even when the input failed.
-  EDGESPLAT_TRY_STATUS(finish(o, config, folder, *chain, share.get(), metrics));
+  EDGESPLAT_TRY_STATUS(finish(o, config, folder, *chain, *map, metrics));
   return run;
 }
 

@@ -33,7 +33,8 @@ void describe_sync(ConfigReader& reader, sync::GroupBuilderConfig& c) {
 }
 
 void describe_uplink(ConfigReader& reader, uplink::UplinkConfig& c) {
-  reader.field("robot", c.robot.value, {1, 65535}, "this robot's number; deltas for others are refused");
+  reader.field("robot", c.robot.value, {1, 32767},
+               "this robot's number, origin of its own Gaussians; deltas for others are refused");
   reader.field("queue_keyframes", c.queue_keyframes, {1, 1024}, "waiting keyframes, oldest dropped first");
   reader.field("heartbeat_period_s", c.heartbeat_period_s, Range{0.05, 10.0}, "to the server");
   reader.field("full_bytes_per_s", c.router.full_bytes_per_s, Range{0.0, 1e9},
@@ -83,6 +84,19 @@ void describe_map(ConfigReader& reader, map::ResidentMapConfig& c) {
   reader.field("publish_period_s", c.publish_period_s, Range{0.0, 10.0}, "least time between two snapshots");
 }
 
+void describe_local(ConfigReader& reader, local_mapping::LocalMappingConfig& c) {
+  reader.field("enabled", c.enabled, "map on the robot in LOCAL, and without a server");
+  reader.field("core_share", c.core_share, Range{0.01, 1.0}, "of one core for keyframes and steps");
+  reader.field("budget_bytes", c.budget_bytes, {1 << 20, std::size_t{1} << 40U},
+               "the robot's own Gaussians with what training needs, and training pictures");
+  reader.field("queue_keyframes", c.queue_keyframes, {1, 256}, "waiting keyframes, oldest dropped first");
+  reader.field("publish_period_s", c.publish_period_s, Range{0.0, 10.0},
+               "least time between two maps for the renderer");
+  reader.field("lockstep_steps", c.lockstep_steps, {0, 10000}, "after each keyframe of a lockstep run");
+  reader.field("views_when_short", c.views_when_short, {1, 64},
+               "newest training pictures that pruning leaves");
+}
+
 void describe_server(ConfigReader& reader, ServerLink& c) {
   reader.field("enabled", c.enabled, "share the map with a server");
   reader.field("drain_s", c.drain_s, Range{0.0, 60.0}, "at the end, wait this long for the server's answers");
@@ -100,6 +114,7 @@ void describe(ConfigReader& reader, RobotConfig& c) {
   reader.table("uplink", "keyframes to the server", [&] { describe_uplink(reader, c.uplink); });
   reader.table("offload", "where the mapping is done", [&] { describe_offload(reader, c.offload); });
   reader.table("map", "the resident map", [&] { describe_map(reader, c.map); });
+  reader.table("local", "the robot's own mapping", [&] { describe_local(reader, c.local); });
   reader.table("render", "the live picture", [&] {
     reader.field("target_hz", c.render.target_hz, Range{0.0, 120.0}, "pictures a second at most, 0 = never");
   });

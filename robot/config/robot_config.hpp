@@ -6,6 +6,7 @@
 #include "common/link/link_config.hpp"
 #include "common/policy/offload_policy.hpp"
 #include "robot/keyframe/keyframe_config.hpp"
+#include "robot/local_mapping/local_mapping_config.hpp"
 #include "robot/map/resident_map.hpp"
 #include "robot/sync/group_builder.hpp"
 #include "robot/tracking/tracking_config.hpp"
@@ -75,6 +76,7 @@ struct RobotConfig {
   uplink::UplinkConfig uplink = budgeted_uplink();
   OffloadSettings offload;
   map::ResidentMapConfig map;
+  local_mapping::LocalMappingConfig local;
   RenderSettings render;
   ServerLink server;
 };

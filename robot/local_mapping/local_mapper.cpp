@@ -71,10 +71,8 @@ void LocalMapper::run_inline() {
   const Inbox::Round round = inbox_.take({}, nanoseconds(0), true);
   obey(round);
   if (round.keyframe) {
-    arena_.execute([&] {
-      map_.add(*round.keyframe);
-      for (int step = 0; step < config_.lockstep_steps; ++step) map_.step();
-    });
+    work(round);
+    for (int step = 0; step < config_.lockstep_steps && map_.has_work(); ++step) work({});
   }
   publish_where_due(true);
 }

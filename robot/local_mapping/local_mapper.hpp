@@ -58,6 +58,7 @@ class LocalMapper : public offload::LocalMapping {
   [[nodiscard]] std::optional<nanoseconds> patience(HostTime now) const;
   // All with map_mutex_ held.
   void obey(const Inbox::Round& round);
+  /// The round's keyframe, or a step where it has none.
   void work(const Inbox::Round& round);
   void publish_where_due(bool at_once);
 

@@ -140,9 +140,18 @@ void ResidentMap::publish_if_due(HostTime now) {
   publish_where_due(now);
 }
 
+void ResidentMap::publish_now(HostTime now) {
+  const std::lock_guard lock(mutex_);
+  publish(now);
+}
+
 void ResidentMap::publish_where_due(HostTime now) {
   const bool due = counters_.snapshots == 0 || now - last_publish_ >= from_seconds(config_.publish_period_s);
-  if (!changed_ || !due) return;
+  if (due) publish(now);
+}
+
+void ResidentMap::publish(HostTime now) {
+  if (!changed_) return;
   auto snapshot = std::make_shared<const gaussian::GaussianCloud>(dequantise(state_.rows()));
   changed_ = false;
   last_publish_ = now;

@@ -81,6 +81,8 @@ class ResidentMap {
 
   /// Publishes what changed since the last snapshot where the period has passed; call when idle.
   void publish_if_due(HostTime now);
+  /// The same whatever the pace.
+  void publish_now(HostTime now);
   /// The newest published Gaussians; never null, may be empty.
   [[nodiscard]] std::shared_ptr<const gaussian::GaussianCloud> snapshot() const;
   [[nodiscard]] MapFromOdom map_from_odom() const;
@@ -95,6 +97,7 @@ class ResidentMap {
   bool apply_now(std::span<const std::byte> bytes, HostTime now);
   void evict_overflow();
   void publish_where_due(HostTime now);
+  void publish(HostTime now);
   [[nodiscard]] std::size_t bytes_each() const;
 
   const ResidentMapConfig config_;

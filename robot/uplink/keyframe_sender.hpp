@@ -14,7 +14,7 @@
 namespace edgesplat::uplink {
 
 struct SenderConfig {
-  map::RobotId robot{1};                ///< 1..65535
+  map::RobotId robot{1};                ///< 1..32767
   std::size_t full_keyframe_bytes = 0;  ///< a keyframe is slimmed to about so much in FULL; 0: never
   std::size_t lean_keyframe_bytes = 0;  ///< and in LEAN
   RouterConfig router;

@@ -90,7 +90,8 @@ void describe(ConfigReader& reader, ServerConfig& config) {
   if (!log::parse_level(config.log_level)) {
     reader.problem("log_level", "is none of trace, debug, info, warn, error, off");
   }
-  reader.field("instance_id", config.instance_id, {1, 65535}, "origin of the Gaussians this server makes");
+  reader.field("instance_id", config.instance_id, {32768, 65535},
+               "origin of the Gaussians this server makes; below are the robots' numbers");
   reader.field("max_robots", config.max_robots, {1, 64}, "served at a time");
   reader.field("queue_keyframes", config.queue_keyframes, {1, 1024}, "decoded and waiting to be mapped");
   reader.field("delta_gaussians", config.delta_gaussians, {1, 65536}, "most Gaussians in one delta");
