@@ -22,6 +22,7 @@ enum class DeltaKind : std::uint8_t {
   kChunkReplace = 4,  ///< all of one chunk, at one LoD level
   kRepose = 5,        ///< keyframe poses corrected; anchored Gaussians move with them
   kMask = 6,          ///< newest dynamic mask, low resolution
+  kMapped = 7,        ///< keyframes whose part of the map is complete
 };
 [[nodiscard]] std::string_view to_string(DeltaKind kind);
 
@@ -85,9 +86,15 @@ struct MaskBody {
   std::vector<std::uint8_t> dynamic;  ///< [H,W] 0 static .. 255 surely moving
 };
 
+/// What the server made of these keyframes is in the deltas up to this one (but for chunks that the robot
+/// gave up): what the robot made of them itself is retired. Comes again after a snapshot.
+struct MappedBody {
+  std::vector<std::uint32_t> keyframes;  ///< ascending, each once
+};
+
 struct Delta {
   DeltaHeader header;  ///< kind, count and length are filled in by the encoder
-  std::variant<AddBody, UpdateBody, RemoveBody, ChunkReplaceBody, ReposeBody, MaskBody> body;
+  std::variant<AddBody, UpdateBody, RemoveBody, ChunkReplaceBody, ReposeBody, MaskBody, MappedBody> body;
 
   [[nodiscard]] DeltaKind kind() const { return static_cast<DeltaKind>(body.index() + 1); }
 };

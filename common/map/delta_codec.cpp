@@ -4,7 +4,9 @@
 
 #include "common/map/varint.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -82,6 +84,14 @@ struct BodyWriter {
     AttributeWriter attributes(out);
     attributes.bytes(std::as_bytes(std::span(body.dynamic)));
     return pixels;
+  }
+  Result<std::size_t> operator()(const MappedBody& body) {
+    if (body.keyframes.size() > kMaxMappedKeyframes) return refuse(kind, "too many keyframes; split it");
+    if (std::adjacent_find(body.keyframes.begin(), body.keyframes.end(), std::greater_equal<>()) !=
+        body.keyframes.end())
+      return refuse(kind, "its keyframes are not in ascending order");
+    for (const std::uint32_t keyframe : body.keyframes) out.write(keyframe);
+    return body.keyframes.size();
   }
 
  private:

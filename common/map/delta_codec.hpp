@@ -14,6 +14,7 @@ namespace edgesplat::map {
 
 inline constexpr std::size_t kMaxPoseCorrections = 16384;
 inline constexpr std::size_t kMaxMaskSide_px = 256;
+inline constexpr std::size_t kMaxMappedKeyframes = 16384;
 
 /// Any delta as bytes: quantised fields, one zstd stream each, over the same header. The shortest rows are
 /// sorted (sorted_by_chunk() for whole Gaussians, by id for the rest). Poses are rounded to float. Errors:

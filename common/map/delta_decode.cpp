@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/map/delta_codec.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace edgesplat::map {
@@ -105,6 +107,18 @@ Result<MaskBody> read_mask(ByteReader& in, std::size_t count) {
   return body;
 }
 
+Result<MappedBody> read_mapped(ByteReader& in, std::size_t count) {
+  if (count > kMaxMappedKeyframes || in.remaining() != sizeof(std::uint32_t) * count)
+    return refuse("mapped", "the number of keyframes does not match");
+  MappedBody body;
+  body.keyframes.resize(count);
+  for (std::uint32_t& keyframe : body.keyframes) keyframe = in.read<std::uint32_t>();
+  if (std::adjacent_find(body.keyframes.begin(), body.keyframes.end(), std::greater_equal<>()) !=
+      body.keyframes.end())
+    return refuse("mapped", "its keyframes are not in ascending order");
+  return body;
+}
+
 Status read_body(ByteReader& in, Delta& delta) {
   const std::size_t count = delta.header.count;
   switch (delta.header.kind) {
@@ -132,6 +146,10 @@ Status read_body(ByteReader& in, Delta& delta) {
     }
     case DeltaKind::kMask: {
       EDGESPLAT_TRY(delta.body, read_mask(in, count));
+      return {};
+    }
+    case DeltaKind::kMapped: {
+      EDGESPLAT_TRY(delta.body, read_mapped(in, count));
       return {};
     }
   }

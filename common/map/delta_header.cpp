@@ -65,7 +65,7 @@ Result<DeltaHeader> decode_delta_header(std::span<const std::byte> bytes) {
   const auto actual_crc = crc32c(bytes.subspan(kDeltaHeader_bytes), crc32c(bytes.first(kCrcOffset_bytes)));
   if (stated_crc != actual_crc) return fail(Errc::kCorrupt, "a delta's CRC32C does not match");
   if (kind < static_cast<std::uint8_t>(DeltaKind::kAdd) ||
-      kind > static_cast<std::uint8_t>(DeltaKind::kMask)) {
+      kind > static_cast<std::uint8_t>(DeltaKind::kMapped)) {
     return fail(Errc::kCorrupt, "a delta of unknown kind " + std::to_string(kind));
   }
   if (header.seq == 0 || header.base_seq >= header.seq) {
@@ -88,6 +88,8 @@ std::string_view to_string(DeltaKind kind) {
       return "repose";
     case DeltaKind::kMask:
       return "mask";
+    case DeltaKind::kMapped:
+      return "mapped";
   }
   return "unknown";
 }

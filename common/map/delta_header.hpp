@@ -13,7 +13,7 @@
 namespace edgesplat::map {
 
 inline constexpr std::uint32_t kDeltaMagic = 0x31445345U;  ///< "ESD1"
-inline constexpr std::uint16_t kDeltaVersion = 2;
+inline constexpr std::uint16_t kDeltaVersion = 3;
 inline constexpr std::size_t kDeltaHeader_bytes = 57;
 inline constexpr std::size_t kMaxDelta_bytes = std::size_t{20} << 20U;
 

@@ -47,6 +47,7 @@ class MapState {
   void apply_body(const ChunkReplaceBody& body);
   void apply_body(const ReposeBody& body);
   void apply_body(const MaskBody& body);
+  void apply_body(const MappedBody& /*body*/) {}  // of no concern to what is held
   [[nodiscard]] std::uint64_t digest(std::size_t row) const;
   void put(const QuantisedRows& from, std::size_t row);
   void remove_row(std::size_t row);

@@ -35,19 +35,17 @@ Result<std::unique_ptr<LiveMap>> LiveMap::create(const robot_config::RobotConfig
   }
   MapShareParties parties;
   parties.local = map->local_.get();
-  parties.on_resident = [self = map.get()](std::shared_ptr<const gaussian::GaussianCloud> in_map,
-                                           const map::MapFromOdom& map_from_odom) {
-    self->on_resident(std::move(in_map), map_from_odom);
-  };
+  parties.on_resident = [self = map.get()](ResidentNews news) { self->on_resident(std::move(news)); };
   EDGESPLAT_TRY(map->share_, MapShare::create(config, clock, robot_folder, std::move(parties)));
   return map;
 }
 
-void LiveMap::on_resident(std::shared_ptr<const gaussian::GaussianCloud> in_map,
-                          const map::MapFromOdom& map_from_odom) {
-  drawn_.set_resident(in_map, map_from_odom);
-  if (local_)
-    local_->set_resident(local_mapping::moved(std::move(in_map), map_from_odom.map_from_odom.inverse()));
+void LiveMap::on_resident(ResidentNews news) {
+  drawn_.set_resident(news.in_map, news.map_from_odom);
+  if (!local_) return;
+  local_->set_resident(
+      local_mapping::moved(std::move(news.in_map), news.map_from_odom.map_from_odom.inverse()));
+  local_->retire(std::move(news.mapped_keyframes));
 }
 
 void LiveMap::submit(std::shared_ptr<const map::Keyframe> keyframe) {

@@ -37,8 +37,7 @@ class LiveMap {
 
  private:
   LiveMap() = default;
-  void on_resident(std::shared_ptr<const gaussian::GaussianCloud> in_map,
-                   const map::MapFromOdom& map_from_odom);
+  void on_resident(ResidentNews news);
 
   local_mapping::DrawnMap drawn_;
   std::unique_ptr<local_mapping::LocalMapper> local_;  ///< null: switched off

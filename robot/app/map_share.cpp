@@ -119,10 +119,11 @@ void MapShare::publish_newest() {
 void MapShare::tell_resident() {
   if (!parties_.on_resident) return;
   const std::lock_guard lock(told_mutex_);
+  auto mapped = resident_.take_mapped();  // before the snapshot, which has to have what came of them
   auto newest = resident_.snapshot();
-  if (newest == told_) return;
+  if (newest == told_ && mapped.empty()) return;
   told_ = newest;
-  parties_.on_resident(std::move(newest), resident_.map_from_odom());
+  parties_.on_resident({std::move(newest), resident_.map_from_odom(), std::move(mapped)});
 }
 
 void MapShare::publish_counters(metrics::Registry& metrics) const {

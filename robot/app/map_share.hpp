@@ -17,15 +17,23 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 namespace edgesplat::app {
+
+/// What the server made, as it is held here.
+struct ResidentNews {
+  std::shared_ptr<const gaussian::GaussianCloud> in_map;
+  map::MapFromOdom map_from_odom;
+  std::vector<std::uint32_t> mapped_keyframes =
+      {};  ///< since the last news; what came of them is in `in_map`
+};
 
 /// Who else on the robot is concerned with the shared map; all must outlive it.
 struct MapShareParties {
   offload::LocalMapping* local = nullptr;  ///< the robot's own mapping, for LOCAL; null: none
-  /// Told what the server made whenever a new snapshot of it is there; on one thread at a time. May be empty.
-  std::function<void(std::shared_ptr<const gaussian::GaussianCloud>, const map::MapFromOdom&)> on_resident =
-      {};
+  /// Told whenever there is something new; on one thread at a time. May be empty.
+  std::function<void(ResidentNews)> on_resident = {};
 };
 
 /// The robot's side of the shared map: keyframes go up as the offloading decision says, deltas come down into

@@ -75,6 +75,7 @@ bool ResidentMap::apply_now(std::span<const std::byte> bytes, HostTime now) {
   if (delta->header.base_seq == 0) {
     if (counters_.applied > 0) ++counters_.resets;
     more_waits_ = false;
+    mapped_.clear();  // told again when the snapshot is whole
     disagreements_ = 0;
   }
   gate_.applied(delta->header, now);
@@ -83,6 +84,8 @@ bool ResidentMap::apply_now(std::span<const std::byte> bytes, HostTime now) {
     more_waits_ = replace->more;
     more_asked_.reset();
   }
+  if (const auto* mapped = std::get_if<MappedBody>(&delta->body))
+    mapped_.insert(mapped_.end(), mapped->keyframes.begin(), mapped->keyframes.end());
   changed_ = true;
   ++counters_.applied;
   return true;
@@ -156,6 +159,8 @@ void ResidentMap::publish(HostTime now) {
   changed_ = false;
   last_publish_ = now;
   ++counters_.snapshots;
+  published_mapped_.insert(published_mapped_.end(), mapped_.begin(), mapped_.end());
+  mapped_.clear();
   const std::lock_guard lock(published_mutex_);
   published_ = std::move(snapshot);
 }
@@ -163,6 +168,11 @@ void ResidentMap::publish(HostTime now) {
 std::shared_ptr<const gaussian::GaussianCloud> ResidentMap::snapshot() const {
   const std::lock_guard lock(published_mutex_);
   return published_;
+}
+
+std::vector<std::uint32_t> ResidentMap::take_mapped() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(published_mapped_, {});
 }
 
 MapFromOdom ResidentMap::map_from_odom() const {

@@ -85,6 +85,9 @@ class ResidentMap {
   void publish_now(HostTime now);
   /// The newest published Gaussians; never null, may be empty.
   [[nodiscard]] std::shared_ptr<const gaussian::GaussianCloud> snapshot() const;
+  /// Keyframes that the server has mapped, and whose part of the map is in what snapshot() gives after this
+  /// call; each once, but again after a snapshot of the server's.
+  [[nodiscard]] std::vector<std::uint32_t> take_mapped();
   [[nodiscard]] MapFromOdom map_from_odom() const;
   [[nodiscard]] MapPosition position() const;
   /// Over the robot's own memory; equals the server's after the same deltas.
@@ -109,6 +112,8 @@ class ResidentMap {
   std::optional<HostTime> more_asked_;
   unsigned disagreements_ = 0;  ///< in a row
   bool changed_ = false;
+  std::vector<std::uint32_t> mapped_;            ///< keyframes, said since the last snapshot
+  std::vector<std::uint32_t> published_mapped_;  ///< before it, and not taken yet
   HostTime last_publish_{};
   ResidentMapCounters counters_;
 

@@ -59,7 +59,12 @@ std::vector<OutgoingDelta> MappingStage::handle(const ingest::IngestedKeyframe& 
   restored_.heard(keyframe.robot, keyframe.session);
   begin_restored();
   RobotMap& robot = map_of(keyframe);
+  const std::size_t mapped_before = robot.builder->poses().size();
   const std::size_t added = robot.builder->add(keyframe.keyframe);
+  if (robot.builder->poses().size() > mapped_before) {
+    const std::uint32_t mapped[] = {keyframe.keyframe.id.value};
+    robot.stream->mapped(mapped);
+  }
   keyframes_.add();
   gaussians_.add(added);
   bad_pictures_.add(robot.builder->bad_pictures() -

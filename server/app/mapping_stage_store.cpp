@@ -19,6 +19,8 @@ void MappingStage::restore(const store::StoredMap& stored) {
   std::vector<optimise::KeyframePose> poses;
   for (const store::StoredPose& pose : stored.poses)
     poses.push_back({map::KeyframeId{pose.keyframe}, pose.version, pose.map_from_body});
+  std::vector<std::uint32_t> mapped;
+  for (const store::StoredPose& pose : stored.poses) mapped.push_back(pose.keyframe);
   const auto restored = map.builder->restore(stored.gaussians, std::move(poses));
   if (!restored) {
     EDGESPLAT_LOG_ERROR("map", "saved map not used: beginning anew", "robot", stored.robot.value, "why",
@@ -29,6 +31,7 @@ void MappingStage::restore(const store::StoredMap& stored) {
   // The robot gets it as a snapshot, nearest first and as fast as it confirms, whether or not it asks: what
   // is new meanwhile must not come before it.
   (void)map.builder->take_changes();
+  map.stream->mapped(mapped);
   map::MapRequest everything;
   everything.robot = stored.robot;
   if (!stored.poses.empty())

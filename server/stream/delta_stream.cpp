@@ -38,7 +38,8 @@ std::vector<Bytes> DeltaStream::publish(const gaussian::GaussianCloud& cloud,
   Changes changes = sort_out(cloud, candidates(cloud, changed_rows));
   waiting_.clear();
   send_removed(std::move(changes.left), out);
-  send_added(map::sorted_by_chunk(changes.added), out);
+  const bool complete = send_added(map::sorted_by_chunk(changes.added), out) && plan_.waiting() == 0;
+  if (complete) send_mapped(out);
   send_updates(cloud, std::move(changes.updates), out);
   return std::move(out.deltas);
 }
@@ -119,7 +120,7 @@ void DeltaStream::send_removed(std::vector<gaussian::GaussianId> ids, Outbox& ou
   }
 }
 
-void DeltaStream::send_added(map::QuantisedRows rows, Outbox& out) {
+bool DeltaStream::send_added(map::QuantisedRows rows, Outbox& out) {
   std::size_t first = 0;
   while (first < rows.size() && !out.full()) {
     const std::size_t end = std::min(first + config_.max_rows, rows.size());
@@ -129,6 +130,24 @@ void DeltaStream::send_added(map::QuantisedRows rows, Outbox& out) {
     first = end;
   }
   waiting_.insert(rows.ids.begin() + static_cast<std::ptrdiff_t>(first), rows.ids.end());
+  return first >= rows.size();
+}
+
+void DeltaStream::mapped(std::span<const std::uint32_t> keyframes) {
+  const std::lock_guard lock(mutex_);
+  mapped_.insert(keyframes.begin(), keyframes.end());
+  untold_mapped_.insert(keyframes.begin(), keyframes.end());
+}
+
+void DeltaStream::send_mapped(Outbox& out) {
+  while (!untold_mapped_.empty()) {
+    map::MappedBody body;
+    auto end = untold_mapped_.begin();
+    while (end != untold_mapped_.end() && body.keyframes.size() < map::kMaxMappedKeyframes)
+      body.keyframes.push_back(*end++);
+    if (!emit({{}, std::move(body)}, out)) return;
+    untold_mapped_.erase(untold_mapped_.begin(), end);
+  }
 }
 
 void DeltaStream::send_updates(const gaussian::GaussianCloud& cloud, std::vector<Update> updates,

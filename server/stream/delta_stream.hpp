@@ -75,6 +75,9 @@ class DeltaStream {
   /// The robot moves its Gaussians itself; the caller moves `cloud` by the same map::Repose.
   std::vector<Bytes> repose(std::span<const map::PoseCorrection> corrections);
   std::vector<Bytes> mask(const map::MaskBody& mask);
+  /// What these keyframes showed is in the cloud from the next publish() on. The robot is told when all the
+  /// Gaussians that are new then are sent, and again after every snapshot.
+  void mapped(std::span<const std::uint32_t> keyframes);
 
   /// Takes a robot's request: what is kept is sent again at once, the rest comes with the next publish().
   std::vector<Bytes> answer(const map::MapRequest& request, HostTime now);
@@ -96,7 +99,9 @@ class DeltaStream {
   // All with mutex_ held.
   bool emit(map::Delta delta, Outbox& out);
   void send_removed(std::vector<gaussian::GaussianId> ids, Outbox& out);
-  void send_added(map::QuantisedRows rows, Outbox& out);
+  /// True where all of them were sent.
+  bool send_added(map::QuantisedRows rows, Outbox& out);
+  void send_mapped(Outbox& out);
   void send_updates(const gaussian::GaussianCloud& cloud, std::vector<Update> updates, Outbox& out);
   bool send_update(const gaussian::GaussianCloud& cloud, std::span<const Update> updates, Outbox& out);
   void send_chunks(const gaussian::GaussianCloud& cloud, Outbox& out);
@@ -121,8 +126,10 @@ class DeltaStream {
   bool begins_anew_ = false;                          ///< the next delta starts from an empty map
   std::uint64_t snapshot_seq_ = 0;                    ///< first delta of the last snapshot
   HostTime snapshot_asked_{};
-  double bytes_per_update_ = 12.0;  ///< as measured
-  std::set<map::ChunkId> to_drop_;  ///< the robot asked to be rid of
+  double bytes_per_update_ = 12.0;         ///< as measured
+  std::set<std::uint32_t> mapped_;         ///< keyframes, all
+  std::set<std::uint32_t> untold_mapped_;  ///< of them, those the robot is still to be told
+  std::set<map::ChunkId> to_drop_;         ///< the robot asked to be rid of
   DeltaStreamCounters counters_;
 };
 

@@ -83,6 +83,7 @@ void DeltaStream::begin_snapshot(const gaussian::GaussianCloud& cloud, Outbox& o
   }
   plan_.restart(std::vector<map::ChunkId>(chunks.begin(), chunks.end()), near_m);
   begins_anew_ = true;
+  untold_mapped_ = mapped_;
   snapshot_seq_ = seq_ + 1;
   map::AddBody nothing;
   nothing.rows.sh_degree = cloud.sh_degree;

@@ -37,11 +37,11 @@ TEST_F(RobotServerLinkTest, BothEndsHoldTheSameMap) {
   RobotEnd robot(domain_);
   submit_walls(robot, 0, 20);
   ASSERT_TRUE(robot.uplink().drain(60s));
-  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 20, 60s));
+  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 40, 60s));
   server.finish(10s);
   const auto status = server.status();
   ASSERT_EQ(status.size(), 1U);
-  EXPECT_EQ(status[0].seq, 20U);
+  EXPECT_EQ(status[0].seq, 40U);
   EXPECT_EQ(robot.map().map_hash(), status[0].map_hash);
   EXPECT_EQ(robot.map().counters().gaussians, status[0].gaussians);
   EXPECT_GT(status[0].gaussians, 10000U);
@@ -52,9 +52,9 @@ TEST_F(RobotServerLinkTest, TheRealServerMapsAndEndsCleanly) {
   ChildProcess server(server_command());
   RobotEnd robot(domain_);
   submit_walls(robot, 0, 10);
-  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 10, 60s));
+  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 20, 60s));
   EXPECT_TRUE(robot.uplink().drain(60s));
-  const auto server_hash = robot.server_hash_at(10, 60s);
+  const auto server_hash = robot.server_hash_at(20, 60s);
   ASSERT_TRUE(server_hash.has_value());
   EXPECT_EQ(robot.map().map_hash(), *server_hash);
   server.signal(SIGTERM);
@@ -69,7 +69,7 @@ TEST_F(RobotServerLinkTest, KillingTheServerHoldsNobodyAndARestartIsPickedUp) {
   auto server = std::make_unique<ChildProcess>(server_command());
   RobotEnd robot(domain_);
   submit_walls(robot, 0, 5);
-  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 5, 60s));
+  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 10, 60s));
   const auto before = robot.map().snapshot();
   server->signal(SIGKILL);
   ASSERT_EQ(server->wait(20s), 128 + SIGKILL);
@@ -81,7 +81,7 @@ TEST_F(RobotServerLinkTest, KillingTheServerHoldsNobodyAndARestartIsPickedUp) {
     slowest = std::max(slowest, robot.clock().now() - start);
   }
   EXPECT_LT(slowest, 20ms);
-  EXPECT_EQ(robot.map().position().seq, 5U);
+  EXPECT_EQ(robot.map().position().seq, 10U);
   EXPECT_GE(robot.map().counters().gaussians, before->size());  // what was there stays usable
 
   server = std::make_unique<ChildProcess>(server_command());

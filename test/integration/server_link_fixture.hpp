@@ -33,7 +33,8 @@ class ServerLinkFixture : public ::testing::Test {
     command.insert(command.end(), more.begin(), more.end());
     return command;
   }
-  /// Each shows a wall of its own, so each makes one delta.
+  /// Each shows a wall of its own, so each makes two deltas: its Gaussians, and
+  /// that it is mapped.
   static void submit_walls(RobotEnd& robot, std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t id = first; id < first + count; ++id) {
       auto keyframe = wall_keyframe(id, 3000);

@@ -10,6 +10,7 @@
 
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 namespace edgesplat::map {
 namespace {
@@ -96,12 +97,14 @@ TEST(DeltaCodec, TheOtherKindsRoundTrip) {
   EXPECT_EQ(mask.dynamic, std::get<MaskBody>(deltas[5].body).dynamic);
   EXPECT_EQ(mask.width_px, 40);
   EXPECT_EQ(mask.version, 3U);
+  const auto mapped = std::get<MappedBody>(round_trip(deltas[6]).body);
+  EXPECT_EQ(mapped.keyframes, std::get<MappedBody>(deltas[6].body).keyframes);
 }
 
 // The layout other programs rely on: fields in the stated order, little endian.
 TEST(DeltaCodec, TheHeaderLiesAsDocumented) {
   const auto bytes = *encode_delta({test::sample_header(), AddBody{test::random_rows(2, 4)}});
-  const unsigned char expected[] = {'E', 'S', 'D', '1', 2, 0, 12, 0};
+  const unsigned char expected[] = {'E', 'S', 'D', '1', 3, 0, 12, 0};
   EXPECT_EQ(std::memcmp(bytes.data(), expected, sizeof(expected)), 0);
   EXPECT_EQ(bytes[8 + 15], std::byte{15});  // map uuid
   EXPECT_EQ(bytes[24], std::byte{3});       // epoch
@@ -184,6 +187,13 @@ TEST(DeltaCodec, TheEncoderRefusesWhatTheDecoderWould) {
     std::get<ReposeBody>(d.body).corrections[0].old_map_from_body.rotation.coeffs().setZero();
   }));
   EXPECT_TRUE(refused(5, [](Delta& d) { std::get<MaskBody>(d.body).width_px = 41; }));
+  EXPECT_TRUE(refused(6, [](Delta& d) { std::get<MappedBody>(d.body).keyframes = {4, 4}; }));
+  EXPECT_TRUE(refused(6, [](Delta& d) { std::get<MappedBody>(d.body).keyframes = {4, 3}; }));
+  EXPECT_TRUE(refused(6, [](Delta& d) {
+    auto& keyframes = std::get<MappedBody>(d.body).keyframes;
+    keyframes.resize(kMaxMappedKeyframes + 1);
+    std::iota(keyframes.begin(), keyframes.end(), 0U);
+  }));
 }
 
 }  // namespace

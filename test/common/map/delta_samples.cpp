@@ -44,7 +44,8 @@ std::vector<map::Delta> all_kinds(std::size_t count) {
           {header, map::RemoveBody{rows.ids}},
           {header, replace},
           {header, repose},
-          {header, mask}};
+          {header, mask},
+          {header, map::MappedBody{{0, 3, 4, 70000, 0xFFFFFFFFU}}}};
 }
 
 bool same_rows(const map::QuantisedRows& a, const map::QuantisedRows& b) {

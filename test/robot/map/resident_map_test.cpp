@@ -175,5 +175,39 @@ TEST(ResidentMap, TheRendererReadsWhileDeltasCome) {
   renderer.request_stop();
 }
 
+std::vector<std::byte> mapped_delta(std::uint64_t seq, std::vector<std::uint32_t> keyframes) {
+  Delta delta = *decode_delta(add_delta({1, seq}));
+  delta.body = MappedBody{std::move(keyframes)};
+  return *encode_delta(delta);
+}
+
+TEST(ResidentMap, MappedKeyframesAreHandedOnWithTheSnapshotThatHasThem) {
+  ResidentMapConfig config;
+  config.publish_period_s = 0.5;
+  ResidentMap map(config);
+  (void)map.apply(add_delta({1, 1}), at_s(0));  // published
+  (void)map.apply(add_delta({1, 2}), at_s(0.1));
+  (void)map.apply(mapped_delta(3, {7, 8}), at_s(0.1));
+  EXPECT_TRUE(map.take_mapped().empty());
+  (void)map.apply(mapped_delta(4, {9}), at_s(0.7));
+  EXPECT_EQ(map.snapshot()->size(), 2 * kRows);
+  EXPECT_EQ(map.take_mapped(), (std::vector<std::uint32_t>{7, 8, 9}));
+  EXPECT_TRUE(map.take_mapped().empty());
+  (void)map.apply(mapped_delta(5, {10}), at_s(0.8));
+  map.publish_now(at_s(0.8));
+  EXPECT_EQ(map.take_mapped(), std::vector<std::uint32_t>{10});
+}
+
+TEST(ResidentMap, WhatWasMappedBeforeAResetWaitsForTheNewMapToSaySo) {
+  ResidentMapConfig config;
+  config.publish_period_s = 0.5;
+  ResidentMap map(config);
+  (void)map.apply(add_delta({1, 1}), at_s(0));
+  (void)map.apply(mapped_delta(2, {7}), at_s(0.1));
+  (void)map.apply(add_delta({2, 1, 1, 9}), at_s(0.2));
+  map.publish_now(at_s(0.3));
+  EXPECT_TRUE(map.take_mapped().empty());
+}
+
 }  // namespace
 }  // namespace edgesplat::map

@@ -308,5 +308,54 @@ TEST(DeltaStream, AChunkGivenUpIsLeftAloneUntilItIsWantedAgain) {
   EXPECT_EQ(robot.hash(), stream.position().map_hash);
 }
 
+/// The keyframes of each kMapped delta.
+std::vector<std::vector<std::uint32_t>> mapped_in(const std::vector<Bytes>& deltas) {
+  std::vector<std::vector<std::uint32_t>> told;
+  for (const auto& bytes : deltas) {
+    const auto delta = map::decode_delta(bytes);
+    EXPECT_TRUE(delta.has_value());
+    if (const auto* body = std::get_if<map::MappedBody>(&delta->body)) told.push_back(body->keyframes);
+  }
+  return told;
+}
+using Told = std::vector<std::vector<std::uint32_t>>;
+
+TEST(DeltaStream, AKeyframeIsToldMappedWhenAllThatCameOfItIsSent) {
+  DeltaStream stream(config_of(50));
+  const auto cloud = test::random_gaussians(200, 1);
+  const std::uint32_t keyframes[] = {9, 3};
+  stream.mapped(keyframes);
+  auto deltas = stream.publish(cloud, all_rows(cloud), {}, 100);  // room for one delta
+  EXPECT_TRUE(mapped_in(deltas).empty());
+  for (int i = 0; i < 20 && stream.position().gaussians < cloud.size(); ++i) {
+    EXPECT_TRUE(mapped_in(deltas).empty());
+    deltas = stream.publish(cloud, {}, {}, 100);
+  }
+  EXPECT_EQ(mapped_in(deltas), (Told{{3, 9}}));
+  EXPECT_TRUE(mapped_in(stream.publish(cloud, all_rows(cloud), {}, kPlenty_bytes)).empty());
+}
+
+TEST(DeltaStream, AfterASnapshotEveryKeyframeIsToldAgainBehindItsLastChunk) {
+  DeltaStreamConfig config = config_of();
+  config.window_bytes = 1;  // a chunk at a time
+  DeltaStream stream(config);
+  const auto cloud = test::random_gaussians(300, 1);  // several chunks
+  const std::uint32_t first[] = {1};
+  const std::uint32_t second[] = {2};
+  stream.mapped(first);
+  EXPECT_EQ(mapped_in(stream.publish(cloud, all_rows(cloud), {}, kPlenty_bytes)), (Told{{1}}));
+  (void)stream.answer({}, HostTime(std::chrono::seconds(100)));
+  stream.mapped(second);
+  Told told;
+  for (int i = 0; i < 400 && told.empty(); ++i) {
+    const auto deltas = stream.publish(cloud, {}, {}, kPlenty_bytes);
+    told = mapped_in(deltas);
+    EXPECT_EQ(told.empty(), stream.counters().waiting_chunks > 0);
+    stream.confirmed(config.epoch, stream.position().seq);
+  }
+  EXPECT_EQ(told, (Told{{1, 2}}));
+  EXPECT_EQ(stream.position().gaussians, cloud.size());
+}
+
 }  // namespace
 }  // namespace edgesplat::stream
