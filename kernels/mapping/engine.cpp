@@ -26,6 +26,10 @@ void ignore_filled(const std::vector<float>& alpha, StoredView& view) {
   }
 }
 
+Eigen::Vector3f mean_of(const gaussian::GaussianCloud& cloud, std::size_t row) {
+  return Eigen::Map<const Eigen::Vector3f>(&cloud.means_m[3 * row]);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<MappingEngine>> MappingEngine::create(const EngineOptions& options, IdAllocator& ids,
@@ -48,23 +52,64 @@ Result<std::size_t> MappingEngine::add(const map::Keyframe& keyframe,
   input.map_from_body = map_from_body;
   input.anchor = {keyframe.id.value, keyframe.pose_version};
   input.has_camera = keyframe.camera.has_value();
+  if (picture == nullptr || !keyframe.camera) return seed(input);
+  auto view = make_view(keyframe, map_from_body, *picture, undistorter_of(keyframe.camera->model));
+  if (!view) {
+    EDGESPLAT_TRY_STATUS(seed(input));
+    return tl::unexpected(std::move(view).error());
+  }
+  const auto floor = find_ground(input.points_in_body, map_from_body, options_.fill.ground);
+  if (floor) ground_ = floor;
+  std::vector<map::ColouredPoint> still;
+  if (options_.moving.enabled) {
+    EDGESPLAT_TRY(still, without_moving(input, *view));
+    input.points_in_body = still;
+  }
   EDGESPLAT_TRY(std::size_t added, seed(input));
-  if (picture == nullptr || !keyframe.camera) return added;
-  EDGESPLAT_TRY(StoredView view,
-                make_view(keyframe, map_from_body, *picture, undistorter_of(keyframe.camera->model)));
-  if (options_.seen_through.enabled) EDGESPLAT_TRY_STATUS(forget_what_is_gone(view));
+  if (options_.seen_through.enabled) EDGESPLAT_TRY_STATUS(forget_what_is_gone(*view));
   std::vector<float> elsewhere_alpha;
   if (elsewhere_ && elsewhere_->size() > 0) {
-    EDGESPLAT_TRY_STATUS(draw_alpha(view, *elsewhere_, elsewhere_alpha));
-    ignore_filled(elsewhere_alpha, view);
+    EDGESPLAT_TRY_STATUS(draw_alpha(*view, *elsewhere_, elsewhere_alpha));
+    ignore_filled(elsewhere_alpha, *view);
   }
-  if (options_.fill.enabled) {
-    EDGESPLAT_TRY(const std::size_t filled, fill(view, input, std::move(elsewhere_alpha)));
+  if (options_.fill.enabled && ground_) {
+    EDGESPLAT_TRY(const std::size_t filled, fill(*view, input, std::move(elsewhere_alpha)));
     added += filled;
   }
-  views_.add(std::move(view));
+  views_.add(*std::move(view));
   steps_since_view_ = 0;
   return added;
+}
+
+Result<std::vector<map::ColouredPoint>> MappingEngine::without_moving(const SeedInput& input,
+                                                                      StoredView& view) {
+  const MovingOptions& options = options_.moving;
+  const GroundPlane* floor = ground_ ? &*ground_ : nullptr;
+  const DepthPicture here(view);
+  MovingMask in_new(view);
+  std::deque<StoredView>& views = views_.views();
+  std::vector<std::uint32_t> gone;
+  for (std::size_t i = views.size() - std::min(options.views, views.size()); i < views.size(); ++i) {
+    for (const SparseDepth& d : moving_depths(view, DepthPicture(views[i]), options.by))
+      in_new.mark(d, floor, options);
+    MovingMask in_old(views[i]);
+    for (const SparseDepth& d : moving_depths(views[i], here, options.by)) in_old.mark(d, floor, options);
+    in_old.hide_in(views[i]);
+    for (std::uint32_t row = 0; !in_old.empty() && row < cloud().size(); ++row) {
+      if (cloud().anchors[row].keyframe == views[i].keyframe.value &&
+          in_old.holds(mean_of(cloud(), row), options.thickness_m))
+        gone.push_back(row);
+    }
+  }
+  in_new.hide_in(view);
+  std::sort(gone.begin(), gone.end());  // each once: a Gaussian has one anchor
+  EDGESPLAT_TRY_STATUS(remove_gone(gone));
+  std::vector<map::ColouredPoint> still;
+  for (const map::ColouredPoint& point : input.points_in_body) {
+    const Eigen::Vector3d p_in_map_m = input.map_from_body * point.p_in_body_m.cast<double>();
+    if (!in_new.hides(p_in_map_m.cast<float>(), options.thickness_m)) still.push_back(point);
+  }
+  return still;
 }
 
 Result<std::size_t> MappingEngine::seed(const SeedInput& input) {
@@ -77,17 +122,21 @@ Result<std::size_t> MappingEngine::seed(const SeedInput& input) {
 
 Status MappingEngine::forget_what_is_gone(const StoredView& view) {
   const std::vector<std::uint32_t> rows = seen_through_.take(view, cloud());
-  std::unordered_map<std::uint32_t, StoredView*> by_keyframe;
-  for (StoredView& old : views_.views()) by_keyframe[old.keyframe.value] = &old;
+  std::unordered_map<std::uint32_t, MovingMask> masks;  // by the keyframe that showed it
+  for (const StoredView& old : views_.views()) masks.emplace(old.keyframe.value, old);
   for (const std::uint32_t row : rows) {
-    removed_.push_back(cloud().ids[row]);
-    const auto showed_it = by_keyframe.find(cloud().anchors[row].keyframe);
-    if (showed_it == by_keyframe.end()) continue;
+    const auto showed_it = masks.find(cloud().anchors[row].keyframe);
+    if (showed_it == masks.end()) continue;
     const float* log_scales = &cloud().log_scales[3 * std::size_t{row}];
     const float sigma_m = std::exp(std::max({log_scales[0], log_scales[1], log_scales[2]}));
-    const float* mean = &cloud().means_m[3 * std::size_t{row}];
-    mark_moving({mean[0], mean[1], mean[2]}, kMarkedSigmas * sigma_m, *showed_it->second);
+    showed_it->second.mark(mean_of(cloud(), row), kMarkedSigmas * sigma_m);
   }
+  for (StoredView& old : views_.views()) masks.at(old.keyframe.value).hide_in(old);
+  return remove_gone(rows);
+}
+
+Status MappingEngine::remove_gone(std::span<const std::uint32_t> rows) {
+  for (const std::uint32_t row : rows) removed_.push_back(cloud().ids[row]);
   gone_ += rows.size();
   return optimiser_.remove_rows(rows);
 }
@@ -111,9 +160,6 @@ Status MappingEngine::draw_alpha(const StoredView& view, const gaussian::Gaussia
 
 Result<std::size_t> MappingEngine::fill(const StoredView& view, const SeedInput& seeded,
                                         std::vector<float> alpha) {
-  const auto ground = find_ground(seeded.points_in_body, seeded.map_from_body, options_.fill.ground);
-  if (ground) ground_ = ground;
-  if (!ground_) return std::size_t{0};
   EDGESPLAT_TRY_STATUS(draw_alpha(view, cloud(), alpha));
   const auto points = fill_holes(view, seeded.map_from_body, *ground_, alpha, options_.fill);
   SeedInput holes = seeded;

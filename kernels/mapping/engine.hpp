@@ -4,6 +4,7 @@
 
 #include "kernels/mapping/densify.hpp"
 #include "kernels/mapping/hole_fill.hpp"
+#include "kernels/mapping/moving.hpp"
 #include "kernels/mapping/optimiser.hpp"
 #include "kernels/mapping/seed.hpp"
 #include "kernels/mapping/seen_through.hpp"
@@ -40,6 +41,7 @@ struct EngineOptions {
   SeedOptions seed;
   HoleFillOptions fill;
   SeenThroughOptions seen_through;
+  MovingOptions moving;
   OptimiserOptions optimiser = live_optimiser();
   ViewPoolOptions views;
   DensifyOptions densify = prune_only();
@@ -106,8 +108,12 @@ class MappingEngine {
   /// How much of the view's pixels [H,W] these Gaussians fill; grows by what they do where it is not empty.
   [[nodiscard]] Status draw_alpha(const StoredView& view, const gaussian::GaussianCloud& cloud,
                                   std::vector<float>& alpha);
+  /// Compares the new view with the ones before it, both ways: hides what moves in all of them, removes the
+  /// Gaussians that were made of it, and returns the points that stand still.
+  Result<std::vector<map::ColouredPoint>> without_moving(const SeedInput& input, StoredView& view);
   /// What the view's LiDAR looks through goes, and its pixels in the pictures that showed it.
   Status forget_what_is_gone(const StoredView& view);
+  Status remove_gone(std::span<const std::uint32_t> rows);
   /// Seeds where the new view is still empty; `alpha`: what is filled by others, empty for nothing.
   Result<std::size_t> fill(const StoredView& view, const SeedInput& seeded, std::vector<float> alpha);
   [[nodiscard]] std::shared_ptr<const image::Undistorter> undistorter_of(const geometry::CameraModel& camera);

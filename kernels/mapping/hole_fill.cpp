@@ -61,6 +61,7 @@ std::vector<map::ColouredPoint> fill_holes(const StoredView& view,
       const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
                          static_cast<std::size_t>(x);
       if (alpha[pixel] > options.max_alpha || view.undistorter->seen()[pixel] == 0.0F) continue;
+      if (!view.ignored.empty() && view.ignored[pixel]) continue;
       const Eigen::Vector3f ray(static_cast<float>((x - camera.cx_px) / camera.fx_px),
                                 static_cast<float>((y - camera.cy_px) / camera.fy_px), 1.0F);
       const float fall = -normal_in_camera.dot(ray);  // towards the floor, a metre of depth

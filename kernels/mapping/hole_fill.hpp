@@ -13,7 +13,7 @@ namespace edgesplat::mapping {
 struct HoleFillOptions {
   bool enabled = true;
   int stride_px = 3;         ///< every so many pixels get a point, 1..32
-  float max_alpha = 0.5F;    ///< pixels that the map covers less are holes, 0..1
+  float max_alpha = 0.92F;   ///< pixels that the map covers less are holes, 0..1
   float max_depth_m = 8.0F;  ///< farther away the LiDAR sees the floor itself, 0.5..50
   GroundOptions ground;
 };

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/gaussian/gaussian_cloud.hpp"
-#include "kernels/mapping/stored_view.hpp"
+#include "kernels/mapping/depth_picture.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,16 +14,12 @@ namespace edgesplat::mapping {
 
 struct SeenThroughOptions {
   bool enabled = true;
-  float margin_m = 0.25F;          ///< the LiDAR must measure so far behind a Gaussian, 0.05..5 ...
-  float margin_per_range = 0.03F;  ///< ... plus this share of its distance, 0..0.5
-  int reach_px = 4;                ///< measurements so far from its centre count, 0..16
-  int least_rays = 4;              ///< so many of them must pass it and none may stop at it, 1..64
-  int votes = 1;                   ///< views that must agree, 1..100
+  LookThrough by;
+  int votes = 1;  ///< views that must agree, 1..100
 };
 
 /// Finds what is not there any more: Gaussians through which the LiDAR has measured something behind, in
-/// several views. People who walked through leave such Gaussians behind. Source: free-space carving, as in
-/// occupancy grids (Moravec 1985), with the depths of one keyframe. Single-owner.
+/// several views. People who walked through leave such Gaussians behind. Single-owner.
 class SeenThrough {
  public:
   explicit SeenThrough(const SeenThroughOptions& options) : options_(options) {}

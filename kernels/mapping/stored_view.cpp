@@ -14,8 +14,6 @@ namespace {
 
 constexpr float kNearest_m = 0.1F;
 constexpr int kSkyMargin_px = 8;
-constexpr double kLeastMark_px = 2.0;
-constexpr double kMostMark_px = 24.0;
 
 }  // namespace
 
@@ -57,27 +55,6 @@ void ignore_above_measured(int margin_px, StoredView& view) {
     if (view.ignored.empty()) view.ignored.resize(std::size_t{width} * height, false);
     for (std::uint32_t y = 0; y + static_cast<std::uint32_t>(margin_px) < top; ++y) {
       view.ignored[std::size_t{y} * width + x] = true;
-    }
-  }
-}
-
-void mark_moving(const Eigen::Vector3f& p_in_map_m, float radius_m, StoredView& view) {
-  const geometry::CameraModel& camera = view.camera();
-  const Eigen::Vector3d p = view.map_from_camera.inverse() * p_in_map_m.cast<double>();
-  if (!(p.z() > static_cast<double>(kNearest_m))) return;
-  const double u = camera.fx_px * p.x() / p.z() + camera.cx_px;
-  const double v = camera.fy_px * p.y() / p.z() + camera.cy_px;
-  const double reach_px =
-      std::clamp(static_cast<double>(radius_m) * camera.fx_px / p.z(), kLeastMark_px, kMostMark_px);
-  if (!(u > -reach_px && v > -reach_px && u < camera.width_px + reach_px && v < camera.height_px + reach_px))
-    return;
-  const auto from = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach_px))); };
-  const auto to = [&](double at, int size) { return std::min(size - 1, static_cast<int>(at + reach_px)); };
-  if (view.ignored.empty()) view.ignored.resize(view.picture.values.size() / 3, false);
-  for (int y = from(v); y <= to(v, camera.height_px); ++y) {
-    for (int x = from(u); x <= to(u, camera.width_px); ++x) {
-      view.ignored[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
-                   static_cast<std::size_t>(x)] = true;
     }
   }
 }

@@ -49,9 +49,6 @@ struct StoredView {
 /// training would draw the wrong ones over it. Columns without a measurement count fully.
 void ignore_above_measured(int margin_px, StoredView& view);
 
-/// Notes that the pixels around a point of the map showed something that moved: not to be trained on.
-void mark_moving(const Eigen::Vector3f& p_in_map_m, float radius_m, StoredView& view);
-
 /// `picture`: the keyframe's, decoded, of the camera's size, else kInvalidArgument. The keyframe must have a
 /// camera.
 [[nodiscard]] Result<StoredView> make_view(const map::Keyframe& keyframe,

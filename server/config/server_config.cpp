@@ -37,6 +37,8 @@ void describe_optimise(ConfigReader& reader, OptimiseConfig& optimise) {
                "seed the floor and feet of walls where only the camera looks");
   reader.field("forget_seen_through", engine.seen_through.enabled,
                "remove what the LiDAR measures something behind");
+  reader.field("hide_moving", engine.moving.enabled,
+               "leave out of the map what stands where another view saw nothing");
   reader.field("max_view_bytes", engine.views.max_bytes, Range<std::size_t>{1'000'000, std::size_t{1} << 40U},
                "memory for the pictures to train on");
   reader.field("recent_views", engine.views.recent, Range<std::size_t>{0, 1000},

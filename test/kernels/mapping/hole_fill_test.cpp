@@ -49,9 +49,9 @@ TEST(HoleFill, PutsEmptyPixelsOntoTheFloor) {
 
 TEST(HoleFill, LeavesWhatTheMapCoversAndTheSky) {
   Scene scene;
-  scene.alpha.assign(64 * 48, 0.9F);
+  scene.alpha.assign(64 * 48, 0.95F);
   EXPECT_TRUE(scene.filled().empty());
-  scene.alpha.assign(64 * 48, 0.9F);
+  scene.alpha.assign(64 * 48, 0.95F);
   for (std::size_t pixel = 0; pixel < 64 * 20; ++pixel) scene.alpha[pixel] = 0.0F;  // above the horizon
   EXPECT_TRUE(scene.filled().empty());
 }

@@ -65,18 +65,5 @@ TEST(SeenThrough, DoesNotJudgeByTheKeyframeThatMadeItNorWithoutRays) {
   EXPECT_TRUE(judge.take(blind, gaussians_at({2.0F}, 1)).empty());
 }
 
-TEST(MarkMoving, MarksTheFootprintAndNothingElse) {
-  StoredView view = view_of_wall(1, 4.0F);
-  mark_moving({0.0F, 0.0F, 2.0F}, 0.2F, view);  // 5 px
-  ASSERT_EQ(view.ignored.size(), 64U * 48U);
-  EXPECT_TRUE(view.ignored[24 * 64 + 32]);
-  EXPECT_TRUE(view.ignored[24 * 64 + 36]);
-  EXPECT_FALSE(view.ignored[24 * 64 + 40]);
-  EXPECT_FALSE(view.ignored[0]);
-  StoredView other = view_of_wall(1, 4.0F);
-  mark_moving({0.0F, 0.0F, -2.0F}, 0.2F, other);  // behind the camera
-  EXPECT_TRUE(other.ignored.empty());
-}
-
 }  // namespace
 }  // namespace edgesplat::mapping
