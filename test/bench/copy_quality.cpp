@@ -36,7 +36,8 @@ class Copying {
   Copying(const config::ServerConfig& server, double step_ms, VirtualClock& clock)
       : clock_(clock),
         step_(from_seconds(step_ms * 1e-3)),
-        stage_(server, {map::Epoch{1}}, metrics_, clock) {}
+        stage_(
+            server, {map::Epoch{1}}, [](map::RobotId) { return std::size_t{1} << 30U; }, metrics_, clock) {}
 
   void add(const map::Keyframe& keyframe) {
     ingest::IngestedKeyframe message;
