@@ -5,6 +5,7 @@
 #include "common/base/bytes.hpp"
 
 #include <cmath>
+#include <string>
 
 namespace edgesplat::link {
 namespace {
@@ -32,11 +33,14 @@ std::vector<std::byte> encode_heartbeat(const Heartbeat& heartbeat) {
 }
 
 Result<Heartbeat> decode_heartbeat(std::span<const std::byte> bytes) {
-  if (bytes.size() != kHeartbeat_bytes) return fail(Errc::kCorrupt, "a heartbeat has the wrong length");
   ByteReader in(bytes);
-  if (in.read<std::uint32_t>() != kMagic || in.read<std::uint16_t>() != kVersion) {
-    return fail(Errc::kCorrupt, "not a heartbeat of a version this program reads: update the older end");
+  if (in.read<std::uint32_t>() != kMagic) return fail(Errc::kCorrupt, "not a heartbeat");
+  if (const auto version = in.read<std::uint16_t>(); version != kVersion) {
+    return fail(Errc::kCorrupt, "the other end speaks version " + std::to_string(version) +
+                                    ", this program version " + std::to_string(kVersion) +
+                                    ": update the older one");
   }
+  if (bytes.size() != kHeartbeat_bytes) return fail(Errc::kCorrupt, "a heartbeat has the wrong length");
   Heartbeat heartbeat;
   const auto mode = in.read<std::uint8_t>();
   heartbeat.mode = static_cast<OffloadMode>(mode);

@@ -145,6 +145,7 @@ void MapShare::publish_counters(metrics::Registry& metrics) const {
   metrics.counter("map.deltas_duplicate").add(resident.duplicates);
   metrics.counter("map.deltas_held").add(resident.held);
   metrics.counter("map.deltas_corrupt").add(resident.corrupt);
+  metrics.counter("map.deltas_foreign").add(resident.foreign);
   metrics.counter("map.resets").add(resident.resets);
   metrics.counter("map.resends_asked").add(resident.resends_asked);
   metrics.counter("map.snapshots_asked").add(resident.snapshots_asked);

@@ -26,7 +26,7 @@ DeltaGate::Verdict DeltaGate::place(const DeltaHeader& header, std::span<const s
       return Verdict::kOld;
     if (header.base_seq == 0) return Verdict::kApply;
     wants_snapshot_ = true;
-    return Verdict::kNeedsReset;
+    return started_ && header.epoch == position_.epoch ? Verdict::kForeign : Verdict::kNeedsReset;
   }
   if (header.seq <= position_.seq || held_.contains(header.seq)) return Verdict::kDuplicate;
   // One that begins with an empty map stands for all before it.

@@ -39,7 +39,8 @@ class DeltaGate {
     kDuplicate,   ///< seen before
     kHeld,        ///< one before it is missing
     kOld,         ///< of an older epoch or a map left behind
-    kNeedsReset,  ///< of a newer epoch or another map, but not its beginning; or too many are held
+    kForeign,     ///< of another map of this epoch, and not its beginning
+    kNeedsReset,  ///< of a newer epoch, but not its beginning; or too many are held
   };
 
   explicit DeltaGate(const DeltaGateConfig& config) : config_(config) {}

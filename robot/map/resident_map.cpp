@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/map/resident_map.hpp"
 
+#include "common/log/log.hpp"
 #include "common/map/delta_codec.hpp"
 
 #include <utility>
@@ -31,10 +32,11 @@ ResidentMap::ResidentMap(const ResidentMapConfig& config)
 ApplyOutcome ResidentMap::apply(std::span<const std::byte> delta, HostTime now) {
   const auto header = decode_delta_header(delta);
   const std::lock_guard lock(mutex_);
-  if (!header || header->robot != config_.robot) {
+  if (!header) {
     ++counters_.corrupt;
     return ApplyOutcome::kCorrupt;
   }
+  if (header->robot != config_.robot) return refuse_foreign("it is for another robot", header->seq);
   const ApplyOutcome outcome = place(*header, delta, now);
   if (outcome == ApplyOutcome::kApplied) {
     while (const auto next = gate_.take_next()) {
@@ -44,6 +46,12 @@ ApplyOutcome ResidentMap::apply(std::span<const std::byte> delta, HostTime now) 
     publish_where_due(now);
   }
   return outcome;
+}
+
+ApplyOutcome ResidentMap::refuse_foreign(const char* why, std::uint64_t seq) {
+  if (counters_.foreign++ == 0)  // the others are counted
+    EDGESPLAT_LOG_WARN("map", "delta refused", "why", why, "seq", seq);
+  return ApplyOutcome::kForeign;
 }
 
 ApplyOutcome ResidentMap::place(const DeltaHeader& header, std::span<const std::byte> delta, HostTime now) {
@@ -59,6 +67,8 @@ ApplyOutcome ResidentMap::place(const DeltaHeader& header, std::span<const std::
     case DeltaGate::Verdict::kOld:
       ++counters_.old_epoch;
       return ApplyOutcome::kOldEpoch;
+    case DeltaGate::Verdict::kForeign:
+      return refuse_foreign("it belongs to a map that this robot does not hold", header.seq);
     case DeltaGate::Verdict::kNeedsReset:
       break;
   }

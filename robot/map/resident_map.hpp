@@ -32,7 +32,8 @@ enum class ApplyOutcome : std::uint8_t {
   kHeld,        ///< one before it is missing
   kOldEpoch,    ///< of a server start before the present one, or of a map left behind: dropped
   kNeedsReset,  ///< of a newer epoch but not its beginning, or too many held: a snapshot is asked for
-  kCorrupt,     ///< fails its checks, or is for another robot
+  kForeign,     ///< for another robot, or in the middle of a map that is not the one held: refused
+  kCorrupt,     ///< fails its checks
 };
 
 struct ResidentMapCounters {
@@ -41,6 +42,7 @@ struct ResidentMapCounters {
   std::uint64_t held = 0;
   std::uint64_t old_epoch = 0;
   std::uint64_t needs_reset = 0;
+  std::uint64_t foreign = 0;
   std::uint64_t corrupt = 0;
   std::uint64_t resets = 0;     ///< the map was begun anew: another epoch, or a snapshot
   std::uint64_t snapshots = 0;  ///< published to the renderer
@@ -96,6 +98,7 @@ class ResidentMap {
 
  private:
   // All with mutex_ held.
+  ApplyOutcome refuse_foreign(const char* why, std::uint64_t seq);
   ApplyOutcome place(const DeltaHeader& header, std::span<const std::byte> delta, HostTime now);
   bool apply_now(std::span<const std::byte> bytes, HostTime now);
   void evict_overflow();

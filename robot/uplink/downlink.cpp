@@ -41,9 +41,11 @@ class Downlink::Impl {
     const auto heartbeat = link::decode_heartbeat(bytes);
     if (!heartbeat) {
       heartbeats_corrupt_.add();
-      EDGESPLAT_LOG_DEBUG("downlink", "bad heartbeat", "why", heartbeat.error().context);
+      if (!bad_said_) EDGESPLAT_LOG_WARN("downlink", "bad heartbeat", "why", heartbeat.error().context);
+      bad_said_ = true;
       return;
     }
+    bad_said_ = false;
     heartbeats_.add();
     if (handlers_.on_heartbeat) handlers_.on_heartbeat(*heartbeat);
   }
@@ -53,6 +55,7 @@ class Downlink::Impl {
   metrics::Counter deltas_;
   metrics::Counter heartbeats_;
   metrics::Counter heartbeats_corrupt_;
+  bool bad_said_ = false;  ///< of the worker: since the last good one
   thread::Worker worker_;
 };
 

@@ -134,7 +134,7 @@ Status run(const app::Options& options) {
     EDGESPLAT_LOG_INFO("server", "map", "robot", status.robot.value, "gaussians", status.gaussians, "seq",
                        status.seq, "hash", status.map_hash);
   }
-  return {};
+  return recorder ? recorder->outcome() : Status{};
 }
 
 }  // namespace

@@ -10,12 +10,14 @@
 namespace edgesplat::store {
 
 void Recorder::Trouble::note(const Status& status, const char* what) {
+  const bool went_well = last.has_value();
+  last = status;
   if (status) {
-    if (std::exchange(said, false)) EDGESPLAT_LOG_INFO("store", "written again", "what", what);
+    if (!went_well) EDGESPLAT_LOG_INFO("store", "written again", "what", what);
     return;
   }
   failed.add();
-  if (!std::exchange(said, true))
+  if (went_well)
     EDGESPLAT_LOG_ERROR("store", "not written; going on without", "what", what, "why",
                         status.error().context);
 }
@@ -94,6 +96,10 @@ void Recorder::finish(const std::vector<StoredMap>& last) {
   writer_->join();
   writer_.reset();
   for (const StoredMap& map : last) save(map);
+}
+
+Status Recorder::outcome() const {
+  return map_trouble_.last ? keyframe_trouble_.last : map_trouble_.last;
 }
 
 }  // namespace edgesplat::store

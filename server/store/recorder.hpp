@@ -45,13 +45,15 @@ class Recorder {
   bool map(StoredMap map);
   /// Writes what waits, then these; ends the thread. Can be called more than once.
   void finish(const std::vector<StoredMap>& last = {});
+  /// After finish(): the disk's reason where at last it did not take keyframes or maps.
+  [[nodiscard]] Status outcome() const;
 
  private:
   using Job = std::variant<LoggedKeyframe, StoredMap>;
   /// What fails again and again is said once.
   struct Trouble {
     metrics::Counter& failed;
-    bool said = false;
+    Status last = {};  ///< what it said last time
     void note(const Status& status, const char* what);
   };
   bool step(const std::stop_token& stop);

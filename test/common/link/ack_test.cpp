@@ -169,12 +169,17 @@ TEST(Heartbeat, RoundTrip) {
 
 TEST(Heartbeat, RefusesTruncationsAndNumbersThatAreNone) {
   Heartbeat heartbeat;
-  const auto bytes = encode_heartbeat(heartbeat);
+  auto bytes = encode_heartbeat(heartbeat);
   for (std::size_t n = 0; n < bytes.size(); ++n) {
     EXPECT_FALSE(decode_heartbeat(std::span<const std::byte>(bytes).first(n)).has_value());
   }
   heartbeat.render_p95_ms = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(decode_heartbeat(encode_heartbeat(heartbeat)).has_value());
+  bytes[4] = std::byte{9};
+  bytes.push_back(std::byte{0});  // another version may have another length
+  const auto other = decode_heartbeat(bytes);
+  ASSERT_FALSE(other);
+  EXPECT_NE(other.error().context.find("version 9, this program version 1"), std::string::npos);
 }
 
 }  // namespace

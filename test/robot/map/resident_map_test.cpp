@@ -125,10 +125,11 @@ TEST(ResidentMap, RefusesWhatIsCorruptForeignOrOfAnotherMap) {
   bytes[100] ^= std::byte{1};
   EXPECT_EQ(map.apply(bytes, at_s(0)), ApplyOutcome::kCorrupt);
   EXPECT_EQ(map.apply({}, at_s(0)), ApplyOutcome::kCorrupt);
-  EXPECT_EQ(map.apply(add_delta({1, 2, 77}), at_s(0)), ApplyOutcome::kCorrupt);
-  EXPECT_EQ(map.apply(add_delta({1, 2, 1, 99}), at_s(0)), ApplyOutcome::kNeedsReset);  // a foreign map's
+  EXPECT_EQ(map.apply(add_delta({1, 2, 77}), at_s(0)), ApplyOutcome::kForeign);     // another robot's
+  EXPECT_EQ(map.apply(add_delta({1, 2, 1, 99}), at_s(0)), ApplyOutcome::kForeign);  // another map's
   EXPECT_EQ(map.map_hash(), before);
-  EXPECT_EQ(map.counters().corrupt, 3U);
+  EXPECT_EQ(map.counters().corrupt, 2U);
+  EXPECT_EQ(map.counters().foreign, 2U);
   EXPECT_EQ(map.apply(add_delta({1, 2}), at_s(0)), ApplyOutcome::kApplied);
 }
 

@@ -77,6 +77,8 @@ TEST(Recorder, GoesOnWhenTheDiskIsFullAndWhenItIsNoMore) {
     for (int i = 0; i < 3; ++i) recorder.keyframe(keyframe(1000, std::byte{1}));
     (void)recorder.map(sample(1));
     recorder.finish();
+    ASSERT_FALSE(recorder.outcome());
+    EXPECT_NE(recorder.outcome().error().context.find(".map"), std::string::npos);
   }
   EXPECT_EQ(bench.count("store.keyframes_failed"), 3U);
   EXPECT_EQ(bench.count("store.maps_failed"), 1U);
@@ -84,6 +86,7 @@ TEST(Recorder, GoesOnWhenTheDiskIsFullAndWhenItIsNoMore) {
   Recorder recorder({bench.folder.path(), {}}, bench.registry, bench.clock);
   recorder.keyframe(keyframe(1000, std::byte{1}));
   recorder.finish({sample(1)});
+  EXPECT_TRUE(recorder.outcome());
   EXPECT_EQ(bench.count("store.keyframes"), 1U);
   EXPECT_EQ(bench.count("store.maps"), 1U);
 }
