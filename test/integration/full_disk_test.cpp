@@ -28,8 +28,8 @@ TEST_F(FullDiskTest, TheServerGoesOnMappingSaysSoOnceAndFailsInTheEnd) {
   test::ChildProcess server(server_command({"--set", "store.save_period_s=0.2"}), {{}, words}, {kRoom_bytes});
   test::RobotEnd robot(domain_);
   submit_walls(robot, 0, 8);
-  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 8, 60s));
-  const auto hash = robot.server_hash_at(8, 60s);
+  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 16, 60s));
+  const auto hash = robot.server_hash_at(16, 60s);
   ASSERT_TRUE(hash.has_value());
   EXPECT_EQ(robot.map().map_hash(), *hash);
   server.signal(SIGTERM);
