@@ -6,6 +6,7 @@
 #include "kernels/image/undistort.hpp"
 #include "robot/render/view.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace edgesplat::app {
@@ -18,28 +19,40 @@ RenderLoop::RenderLoop(const RenderLoopConfig& config, const sensor::CameraMount
       on_picture_(std::move(on_picture)),
       clock_(clock),
       frame_ms_(metrics.histogram("render.frame_ms")),
+      interval_ms_(metrics.histogram("render.interval_ms")),
       frames_(metrics.counter("render.frames")),
       failures_(metrics.counter("render.failures")),
-      newest_pose_({1}, thread::Overflow::kDropOldest),
-      worker_(thread::Worker::consume<geometry::RigidTransform>(
-          "render", newest_pose_, [this](geometry::RigidTransform map_from_body) { draw(map_from_body); })) {}
+      poses_({1}, thread::Overflow::kDropOldest),
+      worker_("render", [this](const std::stop_token& stop) { return step(stop); }) {}
 
 RenderLoop::~RenderLoop() {
-  newest_pose_.close();
+  poses_.close();
 }
 
 void RenderLoop::show_from(const geometry::RigidTransform& map_from_body) {
-  newest_pose_.push(map_from_body);
+  poses_.push(map_from_body);
+}
+
+bool RenderLoop::step(const std::stop_token& stop) {
+  if (!pose_ || config_.target_hz <= 0.0) {
+    pose_ = poses_.pop(stop);
+    next_ = clock_.now();
+    return pose_.has_value();
+  }
+  const nanoseconds wait = next_ - clock_.now();
+  if (auto newer = wait > nanoseconds(0) ? poses_.pop_for(wait) : poses_.try_pop()) pose_ = *newer;
+  if (stop.stop_requested() || poses_.finished()) return false;
+  const HostTime now = clock_.now();
+  if (now < next_) return true;
+  next_ = std::max(next_ + from_seconds(1.0 / config_.target_hz), now);
+  draw(*pose_);
+  return true;
 }
 
 void RenderLoop::draw(const geometry::RigidTransform& map_from_body) {
-  const HostTime start = clock_.now();
-  if (config_.target_hz <= 0) return;
-  if (drawn_before_ && start - last_start_ < from_seconds(1.0 / config_.target_hz)) return;
+  const HostTime began = clock_.now();
   const std::shared_ptr<const gaussian::GaussianCloud> cloud = map_view_();
   if (!cloud || cloud->size() == 0) return;
-  drawn_before_ = true;
-  last_start_ = start;
   const auto view =
       render::draw_view(*cloud, camera_.model, (map_from_body * camera_.body_from_camera).inverse());
   if (!view) {
@@ -48,9 +61,11 @@ void RenderLoop::draw(const geometry::RigidTransform& map_from_body) {
     return;
   }
   frames_.add();
-  const double took_ms = to_seconds(clock_.now() - start) * 1e3;
+  if (last_began_) interval_ms_.record(to_seconds(began - *last_began_) * 1e3);
+  last_began_ = began;
+  const double took_ms = to_seconds(clock_.now() - began) * 1e3;
   frame_ms_.record(took_ms);
-  if (on_picture_) on_picture_(took_ms);
+  if (on_picture_) on_picture_({began, took_ms});
 }
 
 }  // namespace edgesplat::app

@@ -11,21 +11,28 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace edgesplat::app {
 
 struct RenderLoopConfig {
-  double target_hz = 5.0;  ///< at most this many pictures a second, [0, 120]; 0 = never
+  double target_hz = 5.0;  ///< pictures a second, [0, 120]; 0 = never
 };
 
-/// Draws the resident map from the newest pose on its own thread; poses that come while it draws are skipped,
-/// so tracking never waits for it. Thread-safe.
+struct PictureTimes {
+  HostTime began{};
+  double took_ms = 0.0;
+};
+
+/// Draws the resident map from the newest pose at a fixed rate on its own thread, whether or not a new pose
+/// came; what takes longer than its turn is followed at once. Poses that come while it draws are skipped, so
+/// tracking never waits for it. Thread-safe.
 class RenderLoop {
  public:
   using MapView = std::function<std::shared_ptr<const gaussian::GaussianCloud>()>;
 
-  /// Told on the render thread how long each picture took, in ms.
-  using PictureListener = std::function<void(double)>;
+  /// Told on the render thread about each picture.
+  using PictureListener = std::function<void(const PictureTimes&)>;
 
   RenderLoop(const RenderLoopConfig& config, const sensor::CameraMount& camera, MapView map_view,
              const Clock& clock, metrics::Registry& metrics, PictureListener on_picture = {});
@@ -36,6 +43,7 @@ class RenderLoop {
   void show_from(const geometry::RigidTransform& map_from_body);
 
  private:
+  bool step(const std::stop_token& stop);
   void draw(const geometry::RigidTransform& map_from_body);
 
   RenderLoopConfig config_;
@@ -44,11 +52,13 @@ class RenderLoop {
   PictureListener on_picture_;
   const Clock& clock_;
   metrics::Histogram& frame_ms_;
+  metrics::Histogram& interval_ms_;
   metrics::Counter& frames_;
   metrics::Counter& failures_;
-  HostTime last_start_{};
-  bool drawn_before_ = false;
-  thread::BoundedQueue<geometry::RigidTransform> newest_pose_;
+  std::optional<geometry::RigidTransform> pose_;  ///< the newest that was taken
+  HostTime next_{};                               ///< when the next picture is due
+  std::optional<HostTime> last_began_;
+  thread::BoundedQueue<geometry::RigidTransform> poses_;
   thread::Worker worker_;
 };
 

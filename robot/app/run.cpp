@@ -7,6 +7,7 @@
 #include "common/sensor/rig_config.hpp"
 #include "robot/app/live_input.hpp"
 #include "robot/app/live_map.hpp"
+#include "robot/app/picture_log.hpp"
 #include "robot/app/pipeline.hpp"
 #include "robot/app/progress.hpp"
 #include "robot/app/recording.hpp"
@@ -67,11 +68,16 @@ Status run_sensors(const Options& o, const robot_config::RobotConfig& config, co
 Status run_threads(const Options& o, const robot_config::RobotConfig& config, const sensor::Rig& rig,
                    std::optional<replay::ReplaySource>& recording, SensingChain& chain, LiveMap& map,
                    const Clock& clock, metrics::Registry& metrics, std::stop_token stop) {
+  PictureLog pictures(o.out.empty() ? o.out : o.out / "robot" / "frames.csv");
   std::optional<RenderLoop> render;
   if (rig.camera) {
     render.emplace(
         RenderLoopConfig{config.render.target_hz}, *rig.camera, [&map] { return map.snapshot(); }, clock,
-        metrics, [&map](double render_ms) { map.on_picture(render_ms); });
+        metrics,
+        [&](const PictureTimes& picture) {
+          map.on_picture(picture.took_ms);
+          pictures.add(picture);
+        });
   }
   Progress progress(o.json_progress, clock);
   const auto on_pose = [&](const TrackedFrame& frame) {

@@ -116,7 +116,7 @@ void describe(ConfigReader& reader, RobotConfig& c) {
   reader.table("map", "the resident map", [&] { describe_map(reader, c.map); });
   reader.table("local", "the robot's own mapping", [&] { describe_local(reader, c.local); });
   reader.table("render", "the live picture", [&] {
-    reader.field("target_hz", c.render.target_hz, Range{0.0, 120.0}, "pictures a second at most, 0 = never");
+    reader.field("target_hz", c.render.target_hz, Range{0.0, 120.0}, "pictures a second, 0 = never");
   });
   reader.table("server", "the edge server", [&] { describe_server(reader, c.server); });
 }

@@ -33,7 +33,7 @@ struct CameraSocket {
 };
 
 struct RenderSettings {
-  double target_hz = 5.0;  ///< at most this many pictures a second, 0 = never
+  double target_hz = 5.0;  ///< pictures a second, 0 = never
 };
 
 /// Algorithm 1's defaults here: the best map, and LOCAL within 2 s of the server's death.
