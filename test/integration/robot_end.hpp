@@ -23,7 +23,10 @@ class RobotEnd {
         uplink_(uplink::UplinkConfig{}, *transport_, clock_),
         downlink_(*transport_, {[this](std::span<const std::byte> bytes) { on_delta(bytes); },
                                 [this](const link::Heartbeat& heartbeat) { on_heartbeat(heartbeat); },
-                                [this] { map_.publish_if_due(clock_.now()); }}) {}
+                                [this] {
+                                  map_.publish_if_due(clock_.now());
+                                  send_requests();
+                                }}) {}
 
   [[nodiscard]] uplink::Uplink& uplink() { return uplink_; }
   [[nodiscard]] const map::ResidentMap& map() const { return map_; }
@@ -38,6 +41,11 @@ class RobotEnd {
       return at.epoch == epoch && at.seq >= seq;
     });
   }
+  /// The server's newest.
+  [[nodiscard]] link::Heartbeat server_heartbeat() {
+    const std::lock_guard lock(mutex_);
+    return server_;
+  }
   /// Waits for a heartbeat of the server that speaks of delta `seq`; its map hash.
   std::optional<std::uint64_t> server_hash_at(std::uint64_t seq, std::chrono::seconds patience) {
     std::unique_lock lock(mutex_);
@@ -46,12 +54,21 @@ class RobotEnd {
   }
 
  private:
+  void send_requests() {
+    for (const map::MapRequest& request : map_.requests(clock_.now()))
+      (void)transport_->send(link::Lane::kRequest, kRobot, map::encode_map_request(request));
+  }
   void on_delta(std::span<const std::byte> bytes) {
     (void)map_.apply(bytes, clock_.now());
+    send_requests();
     const std::lock_guard lock(mutex_);
     changed_.notify_all();
   }
   void on_heartbeat(const link::Heartbeat& heartbeat) {
+    const bool idle = heartbeat.queued_messages == 0;
+    if (heartbeat.epoch.value != 0)
+      map_.server_at({heartbeat.epoch, heartbeat.seq}, heartbeat.map_hash, idle, clock_.now());
+    send_requests();
     const std::lock_guard lock(mutex_);
     server_ = heartbeat;
     changed_.notify_all();
