@@ -74,5 +74,20 @@ TEST_F(LocalRun, WithOffloadNeverNothingGoesToTheServerAndWithAutoRenderLatencyA
   EXPECT_GT(metrics("robot")["gauges"]["map.gaussians"].get<double>(), 5000.0);
 }
 
+TEST_F(LocalRun, ShortOfMemoryAndWithoutALinkTheRobotPrunes) {
+  const auto robot =
+      run_program("edgesplat-robot", {"--replay", recording(), "--domain", std::to_string(test_domain()),
+                                      "--out", out(), "--offload", "auto", "--set",
+                                      "offload.memory_threshold_bytes=3e7", "--set", "server.drain_s=0.1"});
+  ASSERT_EQ(robot.exit_code, 0) << robot.err;
+  const auto lines = timeline();
+  EXPECT_TRUE(
+      std::any_of(lines.begin(), lines.end(), [](const auto& l) { return l["prune"].template get<bool>(); }));
+  for (const auto& line : lines) EXPECT_EQ(line["mode"], "LOCAL");
+  EXPECT_GT(counters("robot")["local.pruned"].get<int>(), 100);
+  EXPECT_GT(counters("robot")["local.dropped_views"].get<int>(), 0);
+  EXPECT_GT(metrics("robot")["gauges"]["local.gaussians"].get<double>(), 1000.0);
+}
+
 }  // namespace
 }  // namespace edgesplat::test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/local_mapping/local_map.hpp"
 
+#include "common/metrics/process_usage.hpp"
 #include "test/robot/local_mapping/facing_wall.hpp"
 
 #include <gtest/gtest.h>
@@ -156,6 +157,22 @@ TEST(LocalMap, PruningShrinksItStepByStepDownToAFloor) {
   const std::size_t waiting = maker.local.cloud().size();
   maker.local.prune_and_compress();
   EXPECT_LT(maker.local.cloud().size(), waiting);
+}
+
+TEST(LocalMap, PruningGivesMemoryBackToTheSystem) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer keeps what is freed";
+#endif
+  Maker maker;
+  maker.local.set_here(true);
+  for (std::uint32_t id = 1; id <= 12; ++id) maker.local.add(*test::facing_wall(id, 6.0 * id, 20000));
+  for (int i = 0; i < 12; ++i) maker.local.step();
+  ASSERT_GT(maker.local.cloud().size(), 40000U);
+  const auto before_bytes = metrics::process_usage().rss_bytes;
+  for (int i = 0; i < 4; ++i) maker.local.prune_and_compress();
+  const auto after_bytes = metrics::process_usage().rss_bytes;
+  RecordProperty("freed_bytes", std::to_string(before_bytes - after_bytes));
+  EXPECT_LT(after_bytes + (std::size_t{4} << 20U), before_bytes);
 }
 
 TEST(LocalMap, RetiresWhatTheServerMappedAndNothingElse) {
