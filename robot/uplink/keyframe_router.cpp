@@ -26,11 +26,15 @@ bool KeyframeRouter::mode_sends_next() {
 KeyframeRouter::Way KeyframeRouter::route(bool mode_sends, std::size_t bytes, const LinkLoad& load,
                                           HostTime now) {
   if (!mode_sends) return Way::kKeepMode;
-  return account_.covers(bytes, load, now) ? Way::kSend : Way::kKeepBudget;
+  if (account_.covers(bytes, load, now)) return Way::kSend;
+  since_sent_ = 0;  // the next one is tried in its place
+  return Way::kKeepBudget;
 }
 
 bool KeyframeRouter::may_send_kept(std::size_t bytes, const LinkLoad& load, HostTime now) {
-  return mode_ != link::OffloadMode::kLocal && account_.covers(bytes, load, now);
+  if (mode_ == link::OffloadMode::kLocal) return false;
+  const std::size_t reserve = mode_ == link::OffloadMode::kLean ? config_.lean_reserve_bytes : 0;
+  return account_.covers(bytes + reserve, load, now);
 }
 
 }  // namespace edgesplat::uplink

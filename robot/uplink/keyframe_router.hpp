@@ -11,10 +11,11 @@
 namespace edgesplat::uplink {
 
 struct RouterConfig {
-  double full_bytes_per_s = 0.0;   ///< mean of all that the link sends in FULL; 0: no limit
-  double lean_bytes_per_s = 0.0;   ///< and in LEAN
-  int lean_every = 3;              ///< of the keyframes in LEAN one in so many is sent
-  std::size_t keyframe_bytes = 0;  ///< the budget may be saved up for one of this size
+  double full_bytes_per_s = 0.0;       ///< mean of all that the link sends in FULL; 0: no limit
+  double lean_bytes_per_s = 0.0;       ///< and in LEAN
+  int lean_every = 3;                  ///< of the keyframes in LEAN one in so many is sent
+  std::size_t keyframe_bytes = 0;      ///< the budget may be saved up for one of this size
+  std::size_t lean_reserve_bytes = 0;  ///< in LEAN kept ones leave so much for the next that the mode sends
 };
 
 /// Says for each keyframe whether it is sent now or kept, by the mode and its budget of bytes. Pure;

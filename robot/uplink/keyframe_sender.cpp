@@ -15,6 +15,7 @@ namespace {
 RouterConfig with_room_for_a_keyframe(const SenderConfig& config) {
   RouterConfig router = config.router;
   router.keyframe_bytes = config.full_keyframe_bytes + config.full_keyframe_bytes / 8;
+  router.lean_reserve_bytes = config.lean_keyframe_bytes;
   return router;
 }
 

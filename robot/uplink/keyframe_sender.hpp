@@ -41,7 +41,7 @@ class KeyframeSender {
 
   void set_mode(link::OffloadMode mode);
   void send(const map::Keyframe& keyframe);
-  /// The oldest spooled one, where the link has nothing else to do and the mode allows it. `at_any_cost`: the
+  /// The newest spooled one, where the link has nothing else to do and the mode allows it. `at_any_cost`: the
   /// budget of bytes does not hold.
   void send_spooled(bool at_any_cost);
 

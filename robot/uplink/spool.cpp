@@ -55,41 +55,46 @@ void Spool::move_oldest_to_disk() {
   ++counters_.dropped;
 }
 
-void Spool::drop_oldest_file() {
+void Spool::remove_file(const File& file) {
   std::error_code ignored;
-  std::filesystem::remove(files_.front().path, ignored);
-  counters_.disk_bytes -= files_.front().bytes;
-  files_.pop_front();
+  std::filesystem::remove(file.path, ignored);
+  counters_.disk_bytes -= file.bytes;
   --counters_.items;
+}
+
+void Spool::drop_oldest_file() {
+  remove_file(files_.front());
+  files_.pop_front();
   ++counters_.dropped;
 }
 
 std::optional<std::size_t> Spool::next_bytes() const {
-  if (!files_.empty()) return files_.front().bytes;
-  if (!memory_.empty()) return memory_.front().size();
+  if (!memory_.empty()) return memory_.back().size();
+  if (!files_.empty()) return files_.back().bytes;
   return std::nullopt;
 }
 
 std::optional<std::vector<std::byte>> Spool::take() {
-  while (!files_.empty()) {
-    auto bytes = io::read_file(files_.front().path, files_.front().bytes);
-    if (!bytes) {
-      ++counters_.disk_failures;
-      drop_oldest_file();
-      continue;
-    }
-    drop_oldest_file();
-    --counters_.dropped;  // it was not
+  if (!memory_.empty()) {
+    std::vector<std::byte> bytes = std::move(memory_.back());
+    memory_.pop_back();
+    counters_.memory_bytes -= bytes.size();
+    --counters_.items;
     ++counters_.taken;
-    return std::move(*bytes);
+    return bytes;
   }
-  if (memory_.empty()) return std::nullopt;
-  std::vector<std::byte> bytes = std::move(memory_.front());
-  memory_.pop_front();
-  counters_.memory_bytes -= bytes.size();
-  --counters_.items;
-  ++counters_.taken;
-  return bytes;
+  while (!files_.empty()) {
+    auto bytes = io::read_file(files_.back().path, files_.back().bytes);
+    remove_file(files_.back());
+    files_.pop_back();
+    if (bytes) {
+      ++counters_.taken;
+      return std::move(*bytes);
+    }
+    ++counters_.disk_failures;
+    ++counters_.dropped;
+  }
+  return std::nullopt;
 }
 
 }  // namespace edgesplat::uplink

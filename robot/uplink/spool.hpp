@@ -29,8 +29,8 @@ struct SpoolCounters {
   std::size_t disk_bytes = 0;    ///< now
 };
 
-/// Encoded keyframes that could not be sent, in the order they came: the newest in memory, older ones in
-/// files of a folder that belongs to the spool alone and is emptied at its start and end. Single-owner.
+/// Encoded keyframes that could not be sent: the newest in memory, older ones in files of a folder that
+/// belongs to the spool alone and is emptied at its start and end. Single-owner.
 class Spool {
  public:
   explicit Spool(SpoolConfig config);
@@ -41,7 +41,7 @@ class Spool {
   void put(std::vector<std::byte> bytes);
   /// Size of what take() would give.
   [[nodiscard]] std::optional<std::size_t> next_bytes() const;
-  /// The oldest.
+  /// The newest: what the robot sees now is worth most.
   std::optional<std::vector<std::byte>> take();
   [[nodiscard]] bool empty() const { return files_.empty() && memory_.empty(); }
   [[nodiscard]] const SpoolCounters& counters() const { return counters_; }
@@ -52,6 +52,7 @@ class Spool {
     std::size_t bytes;
   };
   void move_oldest_to_disk();
+  void remove_file(const File& file);
   void drop_oldest_file();
   void remove_files();
 

@@ -67,6 +67,41 @@ TEST(KeyframeRouter, KeepsTheBudgetOfTheModeWhateverComes) {
   }
 }
 
+TEST(KeyframeRouter, InLeanWhatIsKeptLeavesRoomForTheNextThird) {
+  RouterConfig config;
+  config.lean_bytes_per_s = 57e3;
+  config.keyframe_bytes = 130'000;
+  config.lean_reserve_bytes = 40'000;
+  KeyframeRouter router(config, at(0));
+  router.set_mode(OffloadMode::kLean, {}, at(0));
+  LinkLoad load;
+  int kept_by_budget = 0;
+  int late = 0;
+  for (int i = 0; i < 600; ++i) {  // a keyframe every 0.45 s, nine times between them one that was kept
+    const double t = 0.05 * i;
+    if (i % 9 == 0) {
+      const Way way = router.route(router.mode_sends_next(), 40'000, load, at(t));
+      load.sent_bytes += way == Way::kSend ? 40'000 : 0;
+      kept_by_budget += t > 2.0 && way == Way::kKeepBudget ? 1 : 0;
+    } else if (router.may_send_kept(40'000, load, at(t))) {
+      load.sent_bytes += 40'000;
+      ++late;
+    }
+  }
+  EXPECT_EQ(kept_by_budget, 0);
+  EXPECT_GT(late, 10);
+}
+
+TEST(KeyframeRouter, OneThatTheBudgetKeepsIsMadeUpForByTheNext) {
+  RouterConfig config;
+  config.lean_bytes_per_s = 10e3;
+  KeyframeRouter router(config, at(0));
+  router.set_mode(OffloadMode::kLean, {}, at(0));
+  EXPECT_EQ(router.route(router.mode_sends_next(), 8'000, {}, at(0.1)), Way::kKeepBudget);
+  EXPECT_EQ(router.route(router.mode_sends_next(), 8'000, {}, at(0.9)), Way::kSend);
+  EXPECT_EQ(router.route(router.mode_sends_next(), 8'000, {8'000, 0}, at(1.0)), Way::kKeepMode);
+}
+
 TEST(KeyframeRouter, UsesTheBudgetThatThereIs) {
   EXPECT_GE(mean_sent(OffloadMode::kFull, 30'000, 15.0), 250e3);
   EXPECT_GE(mean_sent(OffloadMode::kLean, 30'000, 15.0), 48e3);

@@ -19,12 +19,12 @@ std::size_t files_in(const std::filesystem::path& folder) {
   return count;
 }
 
-TEST(Spool, GivesBackInOrderFromMemoryAndDisk) {
+TEST(Spool, GivesBackTheNewestFirstFromMemoryAndDisk) {
   const test::TempDir folder;
   Spool spool({3000, 100000, folder.path() / "spool"});
   for (std::uint32_t i = 0; i < 10; ++i) spool.put(message_bytes(1000, i));
   EXPECT_EQ(files_in(folder.path() / "spool"), 7U);
-  for (std::uint32_t i = 0; i < 10; ++i) {
+  for (std::uint32_t i = 10; i-- > 0;) {
     EXPECT_EQ(spool.next_bytes(), 1000U);
     const auto bytes = spool.take();
     ASSERT_TRUE(bytes.has_value());
@@ -48,13 +48,15 @@ TEST(Spool, KeepsItsBoundsAndDropsTheOldest) {
   }
   EXPECT_EQ(spool.counters().items, 6U);
   EXPECT_EQ(spool.counters().dropped, 94U);
-  EXPECT_EQ(*spool.take(), message_bytes(1000, 94));
+  for (std::uint32_t i = 100; i-- > 94;) EXPECT_EQ(*spool.take(), message_bytes(1000, i));
+  EXPECT_TRUE(spool.empty());
 }
 
 TEST(Spool, WithoutADiskTheOldestIsDropped) {
   Spool spool({2500, 4500, {}});
   for (std::uint32_t i = 0; i < 5; ++i) spool.put(message_bytes(1000, i));
   EXPECT_EQ(spool.counters().dropped, 3U);
+  EXPECT_EQ(*spool.take(), message_bytes(1000, 4));
   EXPECT_EQ(*spool.take(), message_bytes(1000, 3));
 }
 
