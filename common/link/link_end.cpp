@@ -108,7 +108,7 @@ void LinkEnd::on_acks(const Message& message) {
     return;
   }
   PeerLink* from = peer(message.robot);
-  if (report->session != options_.session || from == nullptr) return;
+  if (report->session != options_.session || from == nullptr || !from->meet(message.session)) return;
   const HostTime now = clock_.now();
   BandwidthEstimator::Delivery delivery{report->delivered_bytes, 0, std::nullopt, 0};
   for (const Ack& ack : report->lanes) {

@@ -14,6 +14,18 @@ constexpr std::size_t kMostWindow_bytes = 2U << 20U;
 
 }  // namespace
 
+bool PeerLink::meet(std::uint64_t session) {
+  if (session == session_) return true;
+  if (session == former_session_) return false;
+  if (session_ != 0) {
+    estimator = BandwidthEstimator(bandwidth_);
+    prober = Prober(probe_);
+  }
+  former_session_ = session_;
+  session_ = session;
+  return true;
+}
+
 void PeerLink::sent_single(Lane lane, std::uint32_t train, HostTime now) {
   auto& log = lane == Lane::kProbe ? probes_ : heartbeats_;
   log[train % kRemembered] = {train, now};

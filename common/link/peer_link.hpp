@@ -16,8 +16,11 @@ namespace edgesplat::link {
 class PeerLink {
  public:
   PeerLink(const BandwidthConfig& bandwidth, const ProbeConfig& probe)
-      : estimator(bandwidth), prober(probe) {}
+      : estimator(bandwidth), prober(probe), bandwidth_(bandwidth), probe_(probe) {}
 
+  /// The peer's program speaks as `session`. Of another one than before everything is measured anew: the
+  /// silence in between was no narrow link. False for the session before, which is over.
+  bool meet(std::uint64_t session);
   /// A heartbeat or a probe left.
   void sent_single(Lane lane, std::uint32_t train, HostTime now);
   /// What the acknowledgement of a lane that is not reliable tells; the same as Flight::on_ack.
@@ -31,6 +34,10 @@ class PeerLink {
   Prober prober;
 
  private:
+  BandwidthConfig bandwidth_;
+  ProbeConfig probe_;
+  std::uint64_t session_ = 0;  ///< 0: none yet
+  std::uint64_t former_session_ = 0;
   static constexpr std::uint32_t kRemembered = 32;
   struct Sent {
     std::uint32_t train = 0;

@@ -3,7 +3,7 @@
 // A server that is killed at random moments, twenty times, while its robot drives on: in virtual time, with
 // the real link, ingest, mapping, delta stream and map files.
 #include "common/map/keyframe_codec.hpp"
-#include "test/integration/restartable_link.hpp"
+#include "test/common/link/restartable_link.hpp"
 #include "test/integration/virtual_robot.hpp"
 #include "test/integration/virtual_server.hpp"
 #include "test/support/map_samples.hpp"
