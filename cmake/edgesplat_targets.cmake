@@ -45,6 +45,9 @@ function(edgesplat_test)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
+  if(EDGESPLAT_SANITIZE)
+    math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")  # so much slower, at worst
+  endif()
   gtest_discover_tests(${target} TEST_PREFIX ${ARG_NAME}/ DISCOVERY_MODE PRE_TEST
     PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
 endfunction()

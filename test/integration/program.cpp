@@ -50,7 +50,7 @@ bool Program::wait_for_stderr(const std::string& text, std::chrono::seconds time
 ProgramResult run_program(const std::string& name, std::vector<std::string> arguments,
                           std::chrono::seconds timeout) {
   Program program(name, std::move(arguments));
-  return program.wait(timeout);
+  return program.wait(kSlowness * timeout);
 }
 
 std::string shared_recording(const std::string& name, std::vector<std::string> simulate_arguments) {

@@ -34,7 +34,14 @@ class Program {
   std::unique_ptr<ChildProcess> child_;
 };
 
-/// Runs to the end.
+/// How much slower programs may be in this build than in a release.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kSlowness = 5;
+#else
+constexpr int kSlowness = 1;
+#endif
+
+/// Runs to the end, at most kSlowness times `timeout`.
 ProgramResult run_program(const std::string& name, std::vector<std::string> arguments,
                           std::chrono::seconds timeout = std::chrono::seconds(120));
 
