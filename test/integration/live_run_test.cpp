@@ -161,7 +161,9 @@ TEST_F(LiveRun, DiskThatFillsUpCostsTheRestOfTheRecordingOnly) {
   std::string again = text_of(in_folder("again/robot/trajectory.tum"));
   EXPECT_GT(std::count(again.begin(), again.end(), '\n'), 5);
   again.resize(again.rfind('\n', again.size() - 2) + 1);  // the last group ends where the file does
-  if (kMustKeepUp || count > 50) EXPECT_EQ(poses.substr(0, again.size()), again);
+  if (kMustKeepUp || count > 50) {
+    EXPECT_EQ(poses.substr(0, again.size()), again);
+  }
 }
 
 }  // namespace
