@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/local_mapping/local_mapper.hpp"
 
+#include "common/thread/step_back.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -28,8 +30,11 @@ LocalMapper::LocalMapper(const LocalMappingConfig& config, LocalMap map, Pace pa
       map_(std::move(map)),
       rest_until_(clock.now()),
       last_publish_(clock.now()) {
-  if (pace_ == Pace::kOwnThread)
-    worker_.emplace("local-map", [this](const std::stop_token& stop) { return round(stop); });
+  if (pace_ != Pace::kOwnThread) return;
+  worker_.emplace("local-map", [this, begun = false](const std::stop_token& stop) mutable {
+    if (!std::exchange(begun, true)) thread::step_back();  // sensing and rendering go first
+    return round(stop);
+  });
 }
 
 LocalMapper::~LocalMapper() {

@@ -22,10 +22,10 @@ enum class Pace : std::uint8_t {
   kInline,     ///< for lockstep runs: a call does what it asks for, with a fixed number of steps a keyframe
 };
 
-/// The robot's own mapping on one thread and one core: keyframes and orders in, its Gaussians out, at a
-/// bounded pace. Every call but settle() returns at once. Thread-safe. Counts local.keyframes, .dropped,
-/// .bad_pictures, .steps, .pruned, .retired, .dropped_views, .published; gauges local.gaussians, .views;
-/// histograms local.step_ms, .keyframe_ms.
+/// The robot's own mapping on one thread of low priority and one core: keyframes and orders in, its Gaussians
+/// out, at a bounded pace. Every call but settle() returns at once. Thread-safe. Counts local.keyframes,
+/// .dropped, .bad_pictures, .steps, .pruned, .retired, .dropped_views, .published; gauges local.gaussians,
+/// .views; histograms local.step_ms, .keyframe_ms.
 class LocalMapper : public offload::LocalMapping {
  public:
   /// Given the robot's Gaussians in `odom` whenever they changed; on the mapper's thread.

@@ -75,10 +75,10 @@ TEST_F(LocalRun, WithOffloadNeverNothingGoesToTheServerAndWithAutoRenderLatencyA
 }
 
 TEST_F(LocalRun, ShortOfMemoryAndWithoutALinkTheRobotPrunes) {
-  const auto robot =
-      run_program("edgesplat-robot", {"--replay", recording(), "--domain", std::to_string(test_domain()),
-                                      "--out", out(), "--offload", "auto", "--set",
-                                      "offload.memory_threshold_bytes=3e7", "--set", "server.drain_s=0.1"});
+  const auto robot = run_program(
+      "edgesplat-robot", {"--replay", recording(), "--domain", std::to_string(test_domain()), "--out", out(),
+                          "--offload", "auto", "--set", "offload.memory_threshold_bytes=3e7", "--set",
+                          "local.views_when_short=1", "--set", "server.drain_s=0.1"});
   ASSERT_EQ(robot.exit_code, 0) << robot.err;
   const auto lines = timeline();
   EXPECT_TRUE(
