@@ -44,11 +44,14 @@ bool OffloadPolicy::server_alive(const Situation& s) const {
   return s.last_heartbeat && s.now - *s.last_heartbeat <= from_seconds(config_.server_timeout_s);
 }
 
-Reason OffloadPolicy::load_trigger(const Situation& s) const {
-  if (config_.setting == OffloadSetting::kAlways) return Reason::kSetting;
+Reason OffloadPolicy::overload(const Situation& s) const {
   if (s.render_p95_ms && *s.render_p95_ms > config_.latency_threshold_ms) return Reason::kLatency;
   if (s.memory_peak_bytes && *s.memory_peak_bytes > config_.memory_threshold_bytes) return Reason::kMemory;
   return Reason::kNone;
+}
+
+Reason OffloadPolicy::load_trigger(const Situation& s) const {
+  return config_.setting == OffloadSetting::kAlways ? Reason::kSetting : overload(s);
 }
 
 Mode OffloadPolicy::link_allows(const Situation& s, double factor, double round_trip_factor) const {
@@ -102,7 +105,7 @@ void OffloadPolicy::consider_upgrade(const Situation& s) {
                            : Mode::kLocal;
   upgrade_windows_ = wanted && allowed > decision_.mode ? upgrade_windows_ + 1 : 0;
   if (decision_.mode == Mode::kLocal)
-    decision_.prune_and_compress = load != Reason::kNone && allowed == Mode::kLocal;
+    decision_.prune_and_compress = overload(s) != Reason::kNone && allowed == Mode::kLocal;
   if (upgrade_windows_ < config_.windows_in_a_row || !upgrade_is_due(s.now)) return;
   switch_to(allowed, decision_.mode == Mode::kLocal ? load : Reason::kBandwidth, s.now);
   decision_.prune_and_compress = false;
@@ -123,7 +126,7 @@ Decision OffloadPolicy::evaluate(const Situation& s) {
     return decision_;
   last_evaluation_ = s.now;
   if (config_.setting == OffloadSetting::kNever) {
-    decision_.prune_and_compress = load_trigger(s) != Reason::kNone;
+    decision_.prune_and_compress = overload(s) != Reason::kNone;
     return decision_;
   }
   if (decision_.mode != Mode::kLocal && !switches_.empty() &&

@@ -71,7 +71,7 @@ struct Decision {
   Reason reason = Reason::kNone;  ///< why the mode was last changed
   bool changed = false;           ///< by this evaluation
   bool prune_and_compress =
-      false;  ///< load asks for offloading but the link does not allow it (Algorithm 1, line 8)
+      false;  ///< the robot is over its limits but the link does not allow it (Algorithm 1, line 8)
 };
 
 /// Algorithm 1 of the end-edge-cloud paper with averaging, hysteresis, dwell, back-off and server loss. Pure:
@@ -91,6 +91,9 @@ class OffloadPolicy {
 
  private:
   [[nodiscard]] bool server_alive(const Situation& s) const;
+  /// The robot is over one of its limits.
+  [[nodiscard]] Reason overload(const Situation& s) const;
+  /// Why somebody else should do the mapping.
   [[nodiscard]] Reason load_trigger(const Situation& s) const;
   /// The highest mode that the link supports: with `factor` times the thresholds.
   [[nodiscard]] Mode link_allows(const Situation& s, double factor, double round_trip_factor) const;

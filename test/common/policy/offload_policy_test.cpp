@@ -89,6 +89,17 @@ TEST(OffloadPolicy, LoadWithoutBandwidthPrunesAndStays) {
   EXPECT_TRUE(steps.back().decision.prune_and_compress);
 }
 
+TEST(OffloadPolicy, WithoutLoadNothingIsPrunedWhateverTheSetting) {
+  for (const auto setting : {OffloadSetting::kAuto, OffloadSetting::kAlways, OffloadSetting::kNever}) {
+    Trace trace;
+    trace.config.setting = setting;
+    trace.render_p95_ms = [](double t_s) { return t_s < 10 ? 20.0 : 50.0; };
+    trace.bandwidth_bytes_per_s = [](double) { return 20e3; };
+    for (const auto& step : trace.run(20))
+      EXPECT_EQ(step.decision.prune_and_compress, step.t_s >= 10) << step.t_s;
+  }
+}
+
 TEST(OffloadPolicy, NarrowLinkMeansLean) {
   Trace trace;
   trace.bandwidth_bytes_per_s = [](double) { return 150e3; };
