@@ -24,7 +24,7 @@ struct LocalMapCounters {
   std::uint64_t steps = 0;
   std::uint64_t pruned = 0;         ///< Gaussians removed over the budget or when the robot was short
   std::uint64_t retired = 0;        ///< Gaussians that the server's took the place of
-  std::uint64_t dropped_views = 0;  ///< pictures let go when the robot was short
+  std::uint64_t dropped_views = 0;  ///< pictures let go early: the robot was short, or the server took over
   std::size_t gaussians = 0;
   std::size_t views = 0;
 };
