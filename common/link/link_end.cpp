@@ -230,7 +230,8 @@ std::size_t LinkEnd::bytes_on_the_way(map::RobotId robot, const PeerLink& to, Ho
 
 void LinkEnd::look_after_peers(HostTime now) {
   for (auto& [robot, to] : peers_) {
-    to.estimator.tick(now, bytes_on_the_way(robot, to, now));
+    // Of what is sent again until it comes: probes may be lost for good.
+    to.estimator.tick(now, sending_.bulk_bytes_on_the_way(robot));
     sending_.set_window(robot, to.window_bytes());
   }
   const std::lock_guard lock(shown_mutex_);

@@ -163,6 +163,22 @@ TEST(LinkEnd, AProbeIsNotFooledByTheBurstThatTheNetworkLetsThrough) {
   EXPECT_LT(*link.robot().quality(kRobot).bandwidth_bytes_per_s, 1.5 * 120e3);
 }
 
+// A lost probe is not sent again: that nothing more comes says nothing of the link.
+TEST(LinkEnd, LostProbesAreNoSilence) {
+  ImpairmentConfig config = shaped({0.0}, {200e3});
+  config.loss = 0.2;
+  SimulatedLink link(impaired(config));
+  link.robot().allow_probing(true);
+  link.run(1);
+  double least = 1e9;
+  link.run(60, [&](double) {
+    while (link.server().receive(nanoseconds(0))) {
+    }
+    least = std::min(least, link.robot().quality(kRobot).bandwidth_bytes_per_s.value_or(1e9));
+  });
+  EXPECT_GT(least, 50e3);
+}
+
 TEST(LinkEnd, AProbeOfAWideLinkFindsAsMuchAsItWasPacedAt) {
   SimulatedLink link;
   link.robot().allow_probing(true);
