@@ -64,6 +64,14 @@ void read_held_out(const nlohmann::json& held_out, Summary& s) {
   s.psnr_nearest_db = number_of(held_out, "psnr_nearest_db");
 }
 
+/// The server's that the robot holds and its own.
+std::optional<double> gaussians_drawn(const nlohmann::json& robot_metrics) {
+  const auto held = find_metric(robot_metrics, {"map.gaussians"});
+  const auto own = find_metric(robot_metrics, {"local.gaussians"});
+  if (!held && !own) return std::nullopt;
+  return held.value_or(0.0) + own.value_or(0.0);
+}
+
 }  // namespace
 
 std::optional<double> percentile(std::vector<double> values, double fraction) {
@@ -91,7 +99,7 @@ Summary summarise(const RunFolder& run, const std::vector<Reference>& references
   s.track_ms_p95 = percentile(run.groups.numbers("track_ms"), 0.95);
   s.realtime_factor = realtime_factor(run, s.duration_s);
   s.packets_lost = packets_lost(run.robot_metrics);
-  s.gaussians = find_metric(run.robot_metrics, {"map.gaussians"});
+  s.gaussians = gaussians_drawn(run.robot_metrics);
   s.keyframes = find_metric(run.robot_metrics, {"keyframes.made"});
   s.bytes_up = find_metric(run.robot_metrics, {"link.bytes_up"});
   s.bytes_down = find_metric(run.robot_metrics, {"link.bytes_down"});

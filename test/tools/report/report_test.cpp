@@ -51,7 +51,7 @@ TEST(WriteReport, AWholeRunGivesItsFigures) {
   EXPECT_GT(summary["track_ms_p95"], summary["track_ms_p50"]);
   EXPECT_NEAR(summary["realtime_factor"], 19.9 / (200 * 0.0183), 0.3);
   EXPECT_EQ(summary["packets_lost"], 7);
-  EXPECT_EQ(summary["gaussians"], 52000);
+  EXPECT_EQ(summary["gaussians"], 52300);
   EXPECT_EQ(summary["keyframes"], 40);
   EXPECT_EQ(summary["robot_peak_rss_mb"], 250);
   EXPECT_EQ(summary["server_peak_rss_mb"], 512);

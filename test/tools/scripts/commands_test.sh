@@ -25,15 +25,18 @@ expect_text() { # expect_text WHAT FILE PATTERN
   tail -n 20 "$2"
 }
 
-for script in "$root"/tools/{setup,test,demo,edgesplat} "$root"/tools/lib/*.sh "$root"/.ci/run; do
+for script in "$root"/tools/{setup,test,demo,bench,edgesplat} "$root"/tools/lib/*.sh "$root"/.ci/run; do
   expect "syntax of $script" 0 bash -n "$script"
 done
-for command in setup test demo; do
+for command in setup test demo bench; do
   expect "$command --help" 0 "$root/tools/$command" --help
   expect_text "$command --help" "$work/stdout" "usage: tools/$command"
   expect "$command with an unknown option" 2 "$root/tools/$command" --no-such-option
 done
 expect "demo with a bad length" 2 "$root/tools/demo" --seconds soon
+expect "demo with a bad offload setting" 2 "$root/tools/demo" --offload perhaps
+expect "demo with a bad link" 2 "$root/tools/demo" --link narrow
+expect "bench without anything to measure" 2 "$root/tools/bench"
 
 # Stand-ins for the programs: the robot listens on its port and ends on SIGTERM, all note how they were called.
 mkdir "$work/bin"
@@ -66,6 +69,7 @@ expect "demo" 0 "$root/tools/demo" --seconds 1 --out "$work/run"
 expect_text "demo" "$CALLS" "^edgesplat simulate --world corridor --seconds 1"
 expect_text "demo" "$CALLS" "^edgesplat-server --interface lo"
 expect_text "demo" "$CALLS" "^edgesplat-robot --live --rig"
+expect_text "demo" "$CALLS" "^edgesplat-robot .*--offload always --set server.link.impair.shape_at_s="
 expect_text "demo" "$CALLS" "^edgesplat stream"
 expect_text "demo" "$CALLS" "^edgesplat report --run"
 expect "demo whose robot fails" 1 env FAILS=edgesplat-robot "$root/tools/demo" --seconds 1 --out "$work/run"
@@ -76,6 +80,23 @@ expect_text "demo with scans" "$CALLS" "^edgesplat-robot --replay $work/scans"
 expect "demo with a missing input" 2 "$root/tools/demo" --input "$work/nothing" --out "$work/run"
 mkdir "$work/empty"
 expect "demo with an empty folder" 2 "$root/tools/demo" --input "$work/empty" --out "$work/run"
+
+
+# Table I: one run without the server and one with it over a wide link, then the table from what they left.
+: >"$CALLS"
+expect "bench --table1 without figures" 1 "$root/tools/bench" --table1 --seconds 1 --out "$work/table1"
+expect_text "bench --table1" "$CALLS" "^edgesplat-robot .*--out $work/table1/robot-alone .*--offload never$"
+expect_text "bench --table1" "$CALLS" "^edgesplat-robot .*--out $work/table1/with-server .*--offload always$"
+for run in robot-alone with-server; do
+  mkdir -p "$work/table1/$run"/{robot,server}
+  echo '{"render_fps_p50": 100, "render_ms_p95": 20, "robot_peak_rss_mb": 90, "gaussians": 5000, "keyframes": 10}' \
+    >"$work/table1/$run/summary.json"
+  echo '{"histograms": {"local.step_ms": {"mean": 20, "count": 30}, "local.keyframe_ms": {"mean": 30, "count": 10}}}' \
+    >"$work/table1/$run/robot/metrics.json"
+  echo '{"histograms": {"map.step_ms": {"mean": 0, "count": 0}}}' >"$work/table1/$run/server/metrics.json"
+done
+expect "table1.py" 0 python3 "$root/tools/lib/table1.py" "$work/table1/robot-alone" "$work/table1/with-server"
+expect_text "table1.py" "$work/stdout" "optimising on the robot, ms a keyframe  *90  *90"
 
 echo "$failures failures"
 exit $((failures > 0))
