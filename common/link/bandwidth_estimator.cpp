@@ -46,6 +46,7 @@ void BandwidthEstimator::on_delivery(const Delivery& d, HostTime now) {
   }
   last_delivered_bytes_ = d.delivered_bytes;
   progress_at_ = now;
+  end_silence(d, now);
   if (!d.sent || *d.sent < burst_began_) return;
   const Point point{d.delivered_bytes, d.came_ns, *d.sent};
   if (!base_) {
@@ -59,6 +60,14 @@ void BandwidthEstimator::on_delivery(const Delivery& d, HostTime now) {
     take_sample(*base_, point, now);
     base_ = point;
   }
+}
+
+void BandwidthEstimator::end_silence(const Delivery& d, HostTime now) {
+  if (before_silence_.empty()) return;
+  const double patience_s = config_.stall_s + to_seconds(round_trip().value_or(nanoseconds(0)));
+  // A repetition that came at once: what was sent before was lost, not slow.
+  if (d.sent && to_seconds(now - *d.sent) < patience_s) samples_ = before_silence_;
+  before_silence_.clear();
 }
 
 bool BandwidthEstimator::ran_dry_between(HostTime from, HostTime to) const {
@@ -134,6 +143,7 @@ void BandwidthEstimator::tick(HostTime now, std::size_t bytes_on_the_way) {
     const double most = static_cast<double>(largest_chunk_bytes_) / std::max(silence_s, 1e-9);
     // Not one chunk came in all that time.
     if (silence_s > config_.stall_s && most < largest()) {
+      if (before_silence_.empty()) before_silence_ = samples_;
       samples_.clear();
       samples_.push_back({most, now});
       correction_ = 1.0;

@@ -78,6 +78,7 @@ class BandwidthEstimator {
   [[nodiscard]] bool ran_dry_between(HostTime from, HostTime to) const;
   void take_sample(const Point& from, const Point& to, HostTime now);
   void add_sample(double bytes_per_s, bool filled_the_link, HostTime now);
+  void end_silence(const Delivery& delivery, HostTime now);
   void watch_delay(const Point& point, HostTime now);
   void correct(HostTime now);
   [[nodiscard]] double largest() const;
@@ -89,6 +90,7 @@ class BandwidthEstimator {
   std::deque<HostTime> ran_dry_;  ///< when the sender had no more to send, the last few times
   HostTime burst_began_{};
   std::deque<Sample> samples_;
+  std::deque<Sample> before_silence_;  ///< what samples_ held; empty while it is not silent
   std::deque<RoundTrip> round_trips_;
   std::optional<HostTime> confirmed_at_;
   std::uint64_t last_delivered_bytes_ = 0;

@@ -33,6 +33,8 @@ class Trace {
     }
   }
 
+  [[nodiscard]] std::uint64_t delivered() const { return delivered_; }
+
   BandwidthEstimator estimator;
   std::function<void(double)> each;
 
@@ -143,6 +145,35 @@ TEST(BandwidthEstimator, ADeadLinkIsNoticedByItsSilence) {
   Trace trace([](double t_s) { return t_s < 3 ? 10 * kMbit : 1e-3; }, 0.0, 15360);
   trace.run(0, 5, unlimited);
   EXPECT_LT(*trace.estimator.bytes_per_s(), 0.8 * 60e3);
+}
+
+/// Estimates after 1.2 s without a word and after the chunk that ended it, which was sent `sent_ago_s`
+/// before.
+std::pair<double, double> around_a_silence(double sent_ago_s) {
+  Trace trace([](double) { return 200e3; }, 0.0, 15000);
+  trace.run(0.0, 3.0, unlimited);
+  trace.run(3.0, 6.0, [](double) { return 0.0; });  // until all has come
+  EXPECT_NEAR(*trace.estimator.bytes_per_s(), 200e3, 40e3);
+  BandwidthEstimator& estimator = trace.estimator;
+  const auto at = [](double t_s) { return HostTime(from_seconds(1000.0 + t_s)); };
+  estimator.on_sent(at(6.0), 15000, true, false);
+  for (double t_s = 6.0; t_s < 7.2; t_s += 0.1) estimator.tick(at(t_s), 15000);
+  const double silent = *estimator.bytes_per_s();
+  estimator.on_delivery(
+      {trace.delivered() + 15000, to_ns(HostTime(from_seconds(14.2))), at(7.21 - sent_ago_s), 0}, at(7.21));
+  return {silent, *estimator.bytes_per_s()};
+}
+
+// A chunk that was lost twice is silent for a second too; the third that comes at once tells the two apart.
+TEST(BandwidthEstimator, ASilenceThatARepetitionEndsAtOnceWasLoss) {
+  const auto [silent, after] = around_a_silence(0.01);
+  EXPECT_LT(silent, 20e3);
+  EXPECT_NEAR(after, 200e3, 40e3);
+}
+TEST(BandwidthEstimator, ASilenceThatASlowChunkEndsWasTheLink) {
+  const auto [silent, after] = around_a_silence(1.21);
+  EXPECT_LT(silent, 20e3);
+  EXPECT_LT(after, 20e3);
 }
 
 TEST(BandwidthEstimator, MuchLossLowersAndItsEndRestores) {
