@@ -68,5 +68,38 @@ TEST_F(OffloadRun, ABadLinkStillEndsInTheSameMap) {
   EXPECT_EQ(counters("server")["map.keyframes"].get<int>(), up["uplink.submitted"].get<int>());
 }
 
+// The same at 1 Mbit/s each way, where the link is never idle while there is something to map.
+TEST_F(OffloadRun, OneMegabitWithEveryFaultKeepsBothSidesInStep) {
+  const auto faults = [](const std::string& prefix) {
+    std::vector<std::string> settings;
+    for (const char* setting : {"loss=0.05", "duplicate=0.03", "reorder=0.1", "flip_bits=0.02", "delay_ms=5",
+                                "shape_at_s=[0]", "shape_bytes_per_s=[125000]"})
+      settings.insert(settings.end(), {"--set", prefix + "link.impair." + setting});
+    return settings;
+  };
+  std::vector<std::string> on_robot = faults("server."), on_server = faults("");
+  on_robot.insert(on_robot.end(), {"--set", "server.drain_s=40"});
+  on_server.insert(on_server.end(),
+                   {"--set", "optimise.steps_per_view=20"});  // so that the map comes to rest
+  const auto robot = run(on_robot, on_server);
+  ASSERT_EQ(robot.exit_code, 0) << robot.err;
+  EXPECT_EQ(robot.err.find("did not answer everything"), std::string::npos) << robot.err;
+  const auto up = counters("robot");
+  EXPECT_GT(up["link.impaired.lost"].get<int>(), 0);
+  const auto at_server = counters("server");
+  int corrupt = 0;
+  for (const char* lane : {"heartbeat", "ack", "delta", "keyframe", "spool", "request", "probe"}) {
+    const std::string name = "link." + std::string(lane) + ".chunks_corrupt";
+    corrupt += up.value(name, 0) + at_server.value(name, 0);
+  }
+  EXPECT_GT(corrupt, 0);
+  EXPECT_GT(up["map.deltas_applied"].get<int>(), 10);
+  EXPECT_EQ(up["map.deltas_corrupt"].get<int>(), 0) << "what is corrupt does not get so far";
+  EXPECT_EQ(up["map.hash_disagreed"].get<int>(), 0);
+  EXPECT_GT(up["map.hash_agreed"].get<int>(), 0);
+  EXPECT_EQ(at_server["ingest.corrupt"].get<int>(), 0);
+  EXPECT_EQ(at_server["link.delta.messages_dropped"].get<int>(), 0) << "nothing is shed";
+}
+
 }  // namespace
 }  // namespace edgesplat::test
