@@ -176,7 +176,7 @@ Result<CameraSet> read_camera_set(const std::filesystem::path& path) {
 }
 
 std::filesystem::path image_path(const std::filesystem::path& set_file, const PosedCamera& camera) {
-  const auto stated = set_file.parent_path() / camera.image;
+  std::filesystem::path stated = set_file.parent_path() / camera.image;
   if (camera.image.has_extension()) return stated;
   std::error_code ignored;
   for (const char* ending : {".png", ".jpg"}) {

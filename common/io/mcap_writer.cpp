@@ -94,7 +94,7 @@ Status McapWriter::File::flush() {
   outgoing_.clear();
   auto finished = chunk_.finish(compressor_, bytes_written_, outgoing_);
   chunk_.clear();
-  const Status written = finished ? append(outgoing_) : Status(tl::unexpected<Error>(finished.error()));
+  Status written = finished ? append(outgoing_) : Status(tl::unexpected<Error>(finished.error()));
   if (!written) {
     messages_dropped_ += messages;
     return written;

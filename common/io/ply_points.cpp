@@ -31,7 +31,8 @@ bool add_columns(const ply::Table& table, std::array<std::string_view, 3> names,
 
 std::uint8_t to_colour(float value, bool is_float) {
   const float scaled = is_float ? value * 255.0F : value;  // float colours are 0..1
-  return static_cast<std::uint8_t>(std::clamp(std::isfinite(scaled) ? scaled : 0.0F, 0.0F, 255.0F) + 0.5F);
+  return static_cast<std::uint8_t>(
+      std::lround(std::clamp(std::isfinite(scaled) ? scaled : 0.0F, 0.0F, 255.0F)));
 }
 
 }  // namespace

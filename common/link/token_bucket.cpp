@@ -7,7 +7,7 @@
 
 namespace edgesplat::link {
 
-TokenBucket::TokenBucket(HostTime start, std::vector<double> at_s, std::vector<double> bytes_per_s,
+TokenBucket::TokenBucket(HostTime start, const std::vector<double>& at_s, std::vector<double> bytes_per_s,
                          std::size_t burst_bytes)
     : bytes_per_s_(std::move(bytes_per_s)),
       burst_bytes_(static_cast<double>(burst_bytes)),

@@ -14,7 +14,7 @@ namespace edgesplat::link {
 class TokenBucket {
  public:
   /// The rate is bytes_per_s[i] from `start` + at_s[i] on and unlimited before at_s[0].
-  TokenBucket(HostTime start, std::vector<double> at_s, std::vector<double> bytes_per_s,
+  TokenBucket(HostTime start, const std::vector<double>& at_s, std::vector<double> bytes_per_s,
               std::size_t burst_bytes);
 
   /// Nothing: unlimited at that time.

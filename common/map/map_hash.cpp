@@ -4,7 +4,7 @@
 
 #include "common/base/check.hpp"
 
-#define XXH_INLINE_ALL
+#define XXH_INLINE_ALL  // NOLINT(readability-identifier-naming): the library's own switch
 #include <xxhash.h>
 
 #include <array>
