@@ -61,6 +61,7 @@ sensor::ImageRgb8 Undistorter::apply(const sensor::ImageRgb8& picture) const {
     for (std::size_t c = 0; c < 3; ++c) {
       const float above = (1 - fx) * top[c] + fx * top[c + 3];
       const float below = (1 - fx) * bottom[c] + fx * bottom[c + 3];
+      // Never negative, and lround is a call. NOLINTNEXTLINE(bugprone-incorrect-roundings)
       rgb[c] = static_cast<std::uint8_t>((1 - fy) * above + fy * below + 0.5F);
     }
   }

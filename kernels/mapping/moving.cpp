@@ -14,8 +14,9 @@ constexpr float kMostMark_px = 32.0F;
 
 Eigen::Vector3f in_camera(const SparseDepth& d, const geometry::CameraModel& camera) {
   const auto width = static_cast<std::uint32_t>(camera.width_px);
-  const Eigen::Vector3d ray((d.pixel % width - camera.cx_px) / camera.fx_px,
-                            (static_cast<double>(d.pixel / width) - camera.cy_px) / camera.fy_px, 1.0);
+  const std::uint32_t column = d.pixel % width;
+  const std::uint32_t row = d.pixel / width;
+  const Eigen::Vector3d ray((column - camera.cx_px) / camera.fx_px, (row - camera.cy_px) / camera.fy_px, 1.0);
   return (ray * static_cast<double>(d.depth_m)).cast<float>();
 }
 

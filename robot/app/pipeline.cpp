@@ -27,7 +27,7 @@ Pipeline::Pipeline(SensingChain& chain, Backpressure backpressure, PoseListener 
       groups_({kGroups}, overflow_of(backpressure)),
       frames_({kFrames}, overflow_of(backpressure)) {
   keyframe_worker_.emplace(thread::Worker::consume<TrackedFrame>(
-      "keyframe", frames_, [this](TrackedFrame frame) { chain_.keyframe(frame); }));
+      "keyframe", frames_, [this](const TrackedFrame& frame) { chain_.keyframe(frame); }));
   tracking_worker_.emplace(thread::Worker::consume<ReadyGroup>("tracking", groups_, [this](ReadyGroup ready) {
     std::optional<TrackedFrame> frame = chain_.track(std::move(ready));
     if (!frame) return;

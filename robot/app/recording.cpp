@@ -29,7 +29,7 @@ bool Recording::write_step(const std::stop_token& stop) {
 
 Status Recording::finish(metrics::Registry& metrics) {
   writer_.reset();
-  const Status finished = recorder_->finish();
+  Status finished = recorder_->finish();
   const replay::RecorderCounters counters = recorder_->counters();
   metrics.counter("recorder.written").add(counters.written);
   metrics.counter("recorder.dropped").add(counters.dropped);

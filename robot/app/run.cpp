@@ -67,7 +67,7 @@ Status run_sensors(const Options& o, const robot_config::RobotConfig& config, co
 /// The threaded run: live sensors or a paced recording.
 Status run_threads(const Options& o, const robot_config::RobotConfig& config, const sensor::Rig& rig,
                    std::optional<replay::ReplaySource>& recording, SensingChain& chain, LiveMap& map,
-                   const Clock& clock, metrics::Registry& metrics, std::stop_token stop) {
+                   const Clock& clock, metrics::Registry& metrics, const std::stop_token& stop) {
   PictureLog pictures(o.out.empty() ? o.out : o.out / "robot" / "frames.csv");
   std::optional<RenderLoop> render;
   if (rig.camera) {
@@ -100,7 +100,7 @@ Status run_threads(const Options& o, const robot_config::RobotConfig& config, co
 
 /// Virtual time: every measurement is carried through all stages before the next one is read.
 Status run_lockstep(const Options& o, replay::ReplaySource& recording, SensingChain& chain,
-                    std::stop_token stop) {
+                    const std::stop_token& stop) {
   VirtualClock clock(recording.begin());
   ReplayInput input(recording, 0.0, o.seconds, clock);
   const auto carry = [&](std::vector<ReadyGroup> groups) {
@@ -113,7 +113,7 @@ Status run_lockstep(const Options& o, replay::ReplaySource& recording, SensingCh
         clock.advance_to(arrival_of(measurement));
         carry(chain.sync(std::move(measurement)));
       },
-      std::move(stop)));
+      stop));
   carry(chain.flush());
   return {};
 }
@@ -152,7 +152,7 @@ Status finish(const Options& o, const robot_config::RobotConfig& config,
 
 }  // namespace
 
-Status run_robot(const Options& o, std::stop_token stop) {
+Status run_robot(const Options& o, const std::stop_token& stop) {
   EDGESPLAT_TRY(const robot_config::RobotConfig config, load_config(o));
   if (o.print_config) {
     std::fputs(config::to_toml(config).c_str(), stdout);
@@ -176,8 +176,8 @@ Status run_robot(const Options& o, std::stop_token stop) {
                 LiveMap::create(config, o.lockstep, clock, folder ? folder->robot_folder() : "", metrics));
   const auto sink = [&](std::shared_ptr<const map::Keyframe> keyframe) { map->submit(std::move(keyframe)); };
   EDGESPLAT_TRY(const auto chain, SensingChain::create(config, rig, sink, clock, metrics));
-  const Status run = o.lockstep ? run_lockstep(o, *recording, *chain, stop)
-                                : run_threads(o, config, rig, recording, *chain, *map, clock, metrics, stop);
+  Status run = o.lockstep ? run_lockstep(o, *recording, *chain, stop)
+                          : run_threads(o, config, rig, recording, *chain, *map, clock, metrics, stop);
   if (recording) report_recording(*recording, metrics);
   // What was mapped so far is kept even when the input failed.
   EDGESPLAT_TRY_STATUS(finish(o, config, folder, *chain, *map, metrics));

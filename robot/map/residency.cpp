@@ -77,6 +77,7 @@ bool Residency::has_room(const MapState& state, std::size_t bytes_each) const {
 
 std::vector<ChunkId> Residency::to_fetch(const MapState& state, std::size_t bytes_each) const {
   std::vector<std::pair<float, std::pair<ChunkId, std::size_t>>> ranked;
+  ranked.reserve(absent_.size());
   for (const auto& chunk : absent_) ranked.emplace_back(distance_m(chunk.first), chunk);
   std::sort(ranked.begin(), ranked.end());
   std::size_t expected_bytes = state.size() * bytes_each;

@@ -46,7 +46,7 @@ void PlaneMap::insert(const MapPoint& point) {
   insert_in({find_or_create_root(index), kIsRoot}, local, 0);
 }
 
-void PlaneMap::insert_in(CellRef ref, GatheredPoint point, int layer) {
+void PlaneMap::insert_in(CellRef ref, const GatheredPoint& point, int layer) {
   switch (cell(ref).state) {
     case CellState::kGathering:
       return gather(ref, point, layer);

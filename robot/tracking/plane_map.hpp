@@ -92,7 +92,7 @@ class PlaneMap {
   [[nodiscard]] std::uint32_t find_root(const Eigen::Matrix<std::int64_t, 3, 1>& index) const;
   std::uint32_t find_or_create_root(const Eigen::Matrix<std::int64_t, 3, 1>& index);
   void grow_table();
-  void insert_in(CellRef ref, GatheredPoint point, int layer);
+  void insert_in(CellRef ref, const GatheredPoint& point, int layer);
   void descend(CellRef ref, const GatheredPoint& point, int layer);
   void gather(CellRef ref, const GatheredPoint& point, int layer);
   void refine(CellRef ref, const GatheredPoint& point, int layer);

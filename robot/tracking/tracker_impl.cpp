@@ -136,7 +136,7 @@ ScanUpdateResult Tracker::Impl::match(const Prediction& prediction, const Filter
 
 ScanUpdateResult Tracker::Impl::update(Prediction& prediction, HostTime at) {
   const FilterState& predicted = prediction.belief.state;
-  const ScanUpdateResult result = match(prediction, predicted);
+  ScanUpdateResult result = match(prediction, predicted);
   if (!result.updated || !sweep.has_point_times() || prediction.path.size() < 2) return result;
   const double span_s = to_seconds(prediction.path.back().stamp - prediction.path.front().stamp);
   const ErrorVector correction = minus(result.belief.state, predicted);
@@ -151,7 +151,7 @@ ScanUpdateResult Tracker::Impl::update(Prediction& prediction, HostTime at) {
     sweep.deskew(prediction.path, result.belief.state.odom_from_body.inverse());
     return result;
   }
-  const ScanUpdateResult again = match(prediction, result.belief.state);
+  ScanUpdateResult again = match(prediction, result.belief.state);
   return again.updated ? again : result;
 }
 

@@ -17,9 +17,11 @@ void MappingStage::restore(const store::StoredMap& stored) {
   if (there != maps_.end()) return;  // it began anew meanwhile
   RobotMap& map = begin(stored.robot, stored.session, stored.map);
   std::vector<optimise::KeyframePose> poses;
+  poses.reserve(stored.poses.size());
   for (const store::StoredPose& pose : stored.poses)
     poses.push_back({map::KeyframeId{pose.keyframe}, pose.version, pose.map_from_body});
   std::vector<std::uint32_t> mapped;
+  mapped.reserve(stored.poses.size());
   for (const store::StoredPose& pose : stored.poses) mapped.push_back(pose.keyframe);
   const auto restored = map.builder->restore(stored.gaussians, std::move(poses));
   if (!restored) {
@@ -64,6 +66,7 @@ std::vector<store::StoredMap> MappingStage::changed_maps() {
 
 std::vector<store::StoredMap> MappingStage::all_maps() {
   std::vector<store::StoredMap> all;
+  all.reserve(maps_.size());
   for (auto& [robot, map] : maps_) all.push_back(copy_of(robot, map));
   return all;
 }

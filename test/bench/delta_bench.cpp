@@ -22,7 +22,8 @@ gaussian::GaussianCloud wall(std::size_t count) {
   test::Random random(1);
   auto cloud = test::random_gaussians(count, 1);
   for (std::size_t row = 0; row < count; ++row) {
-    const double along_m = 0.1 * static_cast<double>(row / 64);
+    const std::size_t column = row / 64;
+    const double along_m = 0.1 * static_cast<double>(column);
     cloud.means_m[3 * row] = static_cast<float>(along_m + random.uniform(-0.03, 0.03));
     cloud.means_m[3 * row + 1] = static_cast<float>(random.uniform(-0.02, 0.02));
     cloud.means_m[3 * row + 2] = static_cast<float>(0.05 * static_cast<double>(row % 64));

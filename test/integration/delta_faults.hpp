@@ -27,7 +27,7 @@ class FaultyWay {
   FaultyWay(const Faults& faults, std::uint64_t seed) : faults_(faults), random_(seed) {}
 
   void set_faults(const Faults& faults) { faults_ = faults; }
-  void send(Bytes sample, HostTime now) {
+  void send(const Bytes& sample, HostTime now) {
     const int copies = random_.uniform() < faults_.duplicates ? 2 : 1;
     for (int i = 0; i < copies; ++i) {
       if (random_.uniform() < faults_.loss) continue;

@@ -26,8 +26,9 @@ class KilledRun : public ::testing::Test {
   /// Behind everything else that runs on this machine.
   [[nodiscard]] std::unique_ptr<ChildProcess> nice_server() const {
     return std::make_unique<ChildProcess>(
-        std::vector<std::string>{"/usr/bin/nice", "-n", "10", EDGESPLAT_BINARY_DIR "/bin/edgesplat-server",
-                                 "--domain", std::to_string(test_domain()), "--out", out()},
+        std::vector<std::string>{"/usr/bin/nice", "-n", "10",
+                                 std::string(EDGESPLAT_BINARY_DIR) + "/bin/edgesplat-server", "--domain",
+                                 std::to_string(test_domain()), "--out", out()},
         ChildOutput{folder_.path() / "server.out", folder_.path() / "server.err"});
   }
   /// Intervals between pictures of which the later began between the two times, in ms, ascending.

@@ -28,8 +28,9 @@ class ServerLinkFixture : public ::testing::Test {
   }
   /// The real server in this domain and folder.
   [[nodiscard]] std::vector<std::string> server_command(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> command = {EDGESPLAT_BINARY_DIR "/bin/edgesplat-server", "--domain",
-                                        std::to_string(test_domain()), "--out", folder_.path().string()};
+    std::vector<std::string> command = {std::string(EDGESPLAT_BINARY_DIR) + "/bin/edgesplat-server",
+                                        "--domain", std::to_string(test_domain()), "--out",
+                                        folder_.path().string()};
     command.insert(command.end(), more.begin(), more.end());
     return command;
   }

@@ -4,11 +4,12 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <csignal>
 
 namespace edgesplat::test {
 namespace {
@@ -24,6 +25,7 @@ void redirect(int target_fd, const std::string& file) {
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const ChildOutput& output,
                            const ChildLimits& limits) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   pid_ = ::fork();

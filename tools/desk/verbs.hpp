@@ -6,8 +6,8 @@
 
 #include <functional>
 
-namespace CLI {
-class App;  // CLI11 costs 10 s a file: only main.cpp and the *_verb.cpp files include it
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's
+class App;       // CLI11 costs 10 s a file: only main.cpp and the *_verb.cpp files include it
 }
 
 namespace edgesplat::desk {

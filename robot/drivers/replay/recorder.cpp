@@ -95,7 +95,7 @@ Status Recorder::finish() {
 Status Recorder::write(const Item& item) {
   const std::uint64_t dropped_before =
       writer_.messages_dropped();  // after a full disk the writer only counts
-  const Status status = std::visit([this](const auto& one) { return write(one); }, item);
+  Status status = std::visit([this](const auto& one) { return write(one); }, item);
   ++(status && writer_.messages_dropped() == dropped_before ? written_ : failed_);
   return status;
 }

@@ -169,6 +169,7 @@ Result<std::vector<fs::path>> find_scans(const fs::path& folder) {
 
 Result<FrameTimes> read_times(const fs::path& folder, const std::vector<fs::path>& scans) {
   std::vector<std::string> stems;
+  stems.reserve(scans.size());
   for (const fs::path& scan : scans) stems.push_back(scan.stem().string());
   std::optional<std::vector<nanoseconds>> times;
   const fs::path path = folder / "times.txt";

@@ -145,8 +145,9 @@ TEST(ImageHostile, EveryTruncationIsRefused) {
 
 TEST(ImageHostile, RandomDamageIsSurvived) {
   std::mt19937 random(5);
-  for (auto bytes : {encode_png(make_gradient(31, 17)).value(), encode_jpeg(make_gradient(31, 17)).value(),
-                     encode_png(make_noise<ImageGray16>(12, 12)).value()}) {
+  for (const auto& bytes :
+       {encode_png(make_gradient(31, 17)).value(), encode_jpeg(make_gradient(31, 17)).value(),
+        encode_png(make_noise<ImageGray16>(12, 12)).value()}) {
     for (int round = 0; round < 2000; ++round) {
       auto damaged = bytes;
       for (int i = 0; i < 3; ++i) damaged[random() % damaged.size()] = static_cast<std::byte>(random());

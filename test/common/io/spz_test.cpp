@@ -36,9 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, SpzRoundTrip,
 TEST_P(SpzRoundTrip, KeepsEverythingToHalfAStep) {
   const test::TempDir folder;
   auto cloud = make_cloud(500, GetParam().sh_degree);
-  for (std::size_t i = 0; i < cloud.sh.size(); ++i) {
-    cloud.sh[i] = std::clamp(cloud.sh[i] * 0.3F, -0.95F, 0.9F);  // SH is kept over -1..1
-  }
+  for (float& value : cloud.sh) value = std::clamp(value * 0.3F, -0.95F, 0.9F);  // SH is kept over -1..1
   ASSERT_TRUE(write_gaussians_spz(folder / "a.spz", cloud, GetParam().version));
   const auto read = read_gaussians_spz(folder / "a.spz");
   ASSERT_TRUE(read) << read.error().context;

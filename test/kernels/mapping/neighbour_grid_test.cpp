@@ -14,8 +14,8 @@ namespace {
 
 TEST(NeighbourGrid, AgreesWithAskingEveryPoint) {
   test::Random random(3);
-  std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 2000; ++i) points.push_back(random.vector(1.0).cast<float>());
+  std::vector<Eigen::Vector3f> points(2000);
+  for (auto& point : points) point = random.vector(1.0).cast<float>();
   const float edge_m = 0.2F;
   const NeighbourGrid grid(points, edge_m);
   for (int i = 0; i < 200; ++i) {

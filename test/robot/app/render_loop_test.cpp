@@ -46,7 +46,8 @@ TEST(RenderLoop, DrawsAtItsOwnRateFromTheNewestPoseWhetherOrNotANewOneCame) {
   const SteadyClock clock;
   metrics::Registry metrics;
   Pictures pictures;
-  const auto cloud = std::make_shared<const gaussian::GaussianCloud>(test::random_gaussians(50, 1));
+  std::shared_ptr<const gaussian::GaussianCloud> cloud =
+      std::make_shared<const gaussian::GaussianCloud>(test::random_gaussians(50, 1));
   RenderLoop loop(
       {10.0}, small_camera(), [&] { return cloud; }, clock, metrics,
       [&](const PictureTimes& picture) { pictures.add(picture); });
@@ -61,7 +62,8 @@ TEST(RenderLoop, DrawsAtItsOwnRateFromTheNewestPoseWhetherOrNotANewOneCame) {
 TEST(RenderLoop, NeverDrawsWhereTheRateIsNoneAndEndsAtOnce) {
   const SteadyClock clock;
   metrics::Registry metrics;
-  const auto cloud = std::make_shared<const gaussian::GaussianCloud>(test::random_gaussians(50, 1));
+  std::shared_ptr<const gaussian::GaussianCloud> cloud =
+      std::make_shared<const gaussian::GaussianCloud>(test::random_gaussians(50, 1));
   {
     RenderLoop loop(
         {0.0}, small_camera(), [&] { return cloud; }, clock, metrics);

@@ -15,8 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path& shared_data() {
-  static const fs::path path = fs::path(EDGESPLAT_SOURCE_DIR) / ".." / "shared" / "data";
-  return path;
+  static const fs::path kPath = fs::path(EDGESPLAT_SOURCE_DIR) / ".." / "shared" / "data";
+  return kPath;
 }
 fs::path drive() {
   return shared_data() / "kitti_drive0052_78scans_images";

@@ -77,7 +77,7 @@ void record(Recorder& recorder) {
 }
 
 std::filesystem::path write_recording(const test::TempDir& folder) {
-  const auto path = folder.path() / "run.mcap";
+  auto path = folder.path() / "run.mcap";
   auto recorder = Recorder::create(path, sensor::print_rig(small_rig()), "");
   EXPECT_TRUE(recorder.has_value()) << recorder.error().context;
   std::jthread writing([&recorder](const std::stop_token& stop) {

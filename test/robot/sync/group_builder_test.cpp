@@ -36,6 +36,7 @@ std::vector<std::tuple<std::int64_t, std::int64_t, std::vector<float>, std::size
   std::vector<std::tuple<std::int64_t, std::int64_t, std::vector<float>, std::size_t, bool>> out;
   for (const MeasureGroup& group : run.groups) {
     std::vector<float> numbers;
+    numbers.reserve(group.points.size());
     for (const GroupPoint& point : group.points) numbers.push_back(point.p_in_lidar_m.x());
     out.emplace_back(to_ns(group.begin), to_ns(group.end), numbers, group.imu.size(),
                      group.image.has_value());

@@ -24,7 +24,7 @@ StoredMap sample(std::uint16_t robot, std::uint8_t name, std::size_t gaussians) 
 /// Saves the map as if written `age` ago.
 std::filesystem::path save(const std::filesystem::path& folder, const StoredMap& map,
                            std::chrono::hours age) {
-  const auto path = map_path(folder, map.robot, map.map);
+  auto path = map_path(folder, map.robot, map.map);
   EXPECT_TRUE(save_map(path, map).has_value());
   std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() - age);
   return path;

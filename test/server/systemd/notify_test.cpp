@@ -38,7 +38,7 @@ TEST(ServerService, TheProgramSaysThatItIsReadyAliveAndEnding) {
   std::copy(name.begin(), name.end(), address.sun_path);
   ASSERT_EQ(::bind(manager.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
   ASSERT_EQ(::setenv("NOTIFY_SOCKET", name.c_str(), 1), 0);
-  test::ChildProcess server({EDGESPLAT_BINARY_DIR "/bin/edgesplat-server", "--domain",
+  test::ChildProcess server({std::string(EDGESPLAT_BINARY_DIR) + "/bin/edgesplat-server", "--domain",
                              std::to_string(test::test_domain()), "--out", folder.path().string()});
   ::unsetenv("NOTIFY_SOCKET");
   EXPECT_EQ(next_message(manager.get()), "READY=1");

@@ -106,6 +106,7 @@ ReferencePicture reference_render(const ReferenceCloud& cloud, const geometry::C
                                   const ReferenceOptions& options) {
   const auto splats = reference_splats(cloud, camera, camera_from_map, options);
   std::vector<Eigen::Matrix2d> inverses;
+  inverses.reserve(splats.size());
   for (const ReferenceSplat& splat : splats) inverses.push_back(splat.covariance_px2.inverse());
   ReferencePicture picture;
   for (int y = 0; y < camera.height_px; ++y) {

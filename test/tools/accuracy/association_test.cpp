@@ -65,7 +65,7 @@ TEST(Associate, EmptyTrajectoriesGiveNoPairs) {
 class ReadReference : public testing::Test {
  protected:
   std::filesystem::path write(const std::string& name, const std::string& text) {
-    const auto path = std::filesystem::path(testing::TempDir()) / ("accuracy_association_" + name);
+    auto path = std::filesystem::path(testing::TempDir()) / ("accuracy_association_" + name);
     std::ofstream(path) << text;
     return path;
   }

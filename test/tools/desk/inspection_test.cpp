@@ -31,7 +31,7 @@ HostTime at(double seconds) {
 
 /// 50 messages at 10 Hz with a gap of 1 s in the middle, and an attachment.
 std::filesystem::path make_recording() {
-  const auto path = file_named("a.mcap");
+  auto path = file_named("a.mcap");
   auto writer = io::McapWriter::create(path);
   EXPECT_TRUE(writer);
   const auto schema = writer->add_schema("test_msgs/msg/Note", "ros2msg", "string text");

@@ -15,6 +15,7 @@ using ::testing::HasSubstr;
 
 std::vector<const ScenePicture*> pointers(const std::vector<ScenePicture>& pictures) {
   std::vector<const ScenePicture*> out;
+  out.reserve(pictures.size());
   for (const ScenePicture& picture : pictures) out.push_back(&picture);
   return out;
 }
@@ -94,6 +95,7 @@ TEST(ReadScene, SaysWhatIsWrong) {
 
 TEST(Triangulate, FindsTheWall) {
   std::vector<ScenePicture> shots;
+  shots.reserve(5);
   for (int i = 0; i < 5; ++i) shots.push_back(WallScene::shoot(i, 320, 240));
   const auto cloud = triangulate(pointers(shots));
   ASSERT_TRUE(cloud) << cloud.error().context;

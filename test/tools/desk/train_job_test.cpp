@@ -24,6 +24,13 @@ TrainJob make_job(const test::TempDir& folder, std::uint64_t iterations) {
   return job;
 }
 
+/// A sanitizer makes training some fifty times slower: there the same way is gone, not as far.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::size_t kIterations = 100;
+#else
+constexpr std::size_t kIterations = 1000;
+#endif
+
 TEST(TrainJob, LearnsAWallFromItsPicturesAlone) {
   const test::TempDir folder;
   write_wall_scene(folder, 9, 160, 120);
@@ -31,7 +38,7 @@ TEST(TrainJob, LearnsAWallFromItsPicturesAlone) {
   TrainJob job = make_job(folder, 1);
   const auto untrained = run_train_job(job, clock, tell_nobody);
   ASSERT_TRUE(untrained) << untrained.error().context;
-  job.training.iterations = 1000;
+  job.training.iterations = kIterations;
   job.training.densify_every = 40;
   job.renders = folder / "renders";
   const auto trained = run_train_job(job, clock, tell_nobody);
@@ -39,11 +46,14 @@ TEST(TrainJob, LearnsAWallFromItsPicturesAlone) {
   EXPECT_TRUE(trained->triangulated);
   EXPECT_EQ(trained->held_out, 3U);  // frames 0, 4 and 8
   EXPECT_EQ(trained->pictures, 6U);
-  EXPECT_EQ(trained->iterations, 1000U);
+  EXPECT_EQ(trained->iterations, kIterations);
   EXPECT_FALSE(trained->lpips.has_value());
-  EXPECT_GT(*trained->psnr_db, 22.0);
-  EXPECT_GT(*trained->psnr_db, *untrained->psnr_db + 6.0);
-  EXPECT_GT(*trained->ssim, 0.8);
+  EXPECT_GT(*trained->psnr_db, *untrained->psnr_db);
+  if (kIterations >= 1000) {
+    EXPECT_GT(*trained->psnr_db, 22.0);
+    EXPECT_GT(*trained->psnr_db, *untrained->psnr_db + 6.0);
+    EXPECT_GT(*trained->ssim, 0.8);
+  }
   EXPECT_EQ(io::read_gaussians(job.out).value().size(), trained->gaussians);
   EXPECT_EQ(io::read_sidecar(job.out).value()->gaussians, trained->gaussians);
   EXPECT_TRUE(std::filesystem::exists(folder / "renders" / "view4.png"));

@@ -85,25 +85,19 @@ TEST(ModeTimeline, NothingIsKnownOfAnEmptyOne) {
 
 TEST(ModeTimeline, HostileLinesAreSkippedAndCounted) {
   const std::string good = line_of(2, "FULL", 10, 10);
-  const std::vector<std::string> hostile = {good.substr(0, good.size() / 2) + "\n",  // cut off
-                                            "[1, 2]\n",                              // no object
-                                            R"({"t_s": 3})"
-                                            "\n",  // no mode
-                                            R"({"t_s": 3, "mode": 7})"
-                                            "\n",  // a mode of another type
-                                            R"({"t_s": 3, "mode": "TURBO"})"
-                                            "\n",  // an unknown mode
-                                            R"({"t_s": null, "mode": "FULL"})"
-                                            "\n",  // no time
-                                            R"({"t_s": 1e300, "mode": "FULL"})"
-                                            "\n",  // a time beyond any run
-                                            R"({"t_s": -1, "mode": "FULL"})"
-                                            "\n",  // before the start
-                                            R"({"t_s": 1, "mode": "FULL"})"
-                                            "\n",                                    // back in time
-                                            std::string(100'000, '[') + "\n",        // deep nesting, too long
-                                            std::string(3000, '[') + "\n",           // deep nesting
-                                            std::string("\0\xff\xfe{}", 5) + "\n"};  // no text
+  const std::vector<std::string> hostile = {
+      good.substr(0, good.size() / 2) + "\n",    // cut off
+      "[1, 2]\n",                                // no object
+      "{\"t_s\": 3}\n",                          // no mode
+      "{\"t_s\": 3, \"mode\": 7}\n",             // a mode of another type
+      "{\"t_s\": 3, \"mode\": \"TURBO\"}\n",     // an unknown mode
+      "{\"t_s\": null, \"mode\": \"FULL\"}\n",   // no time
+      "{\"t_s\": 1e300, \"mode\": \"FULL\"}\n",  // a time beyond any run
+      "{\"t_s\": -1, \"mode\": \"FULL\"}\n",     // before the start
+      "{\"t_s\": 1, \"mode\": \"FULL\"}\n",      // back in time
+      std::string(100'000, '[') + "\n",          // deep nesting, too long
+      std::string(3000, '[') + "\n",             // deep nesting
+      std::string("\0\xff\xfe{}", 5) + "\n"};    // no text
   for (const std::string& bad : hostile) {
     const ModeTimeline timeline = parse(good + bad + line_of(4, "FULL", 30, 10));
     EXPECT_EQ(timeline.samples.size(), 2U) << bad.substr(0, 60);
