@@ -59,9 +59,10 @@ std::string html_paragraph(std::string_view text) {
 std::string html_table(const std::vector<std::vector<std::string>>& rows) {
   std::string html = "<div class=\"scroll\"><table>\n";
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string cell = i == 0 ? "th" : "td";
+    const std::string begin = i == 0 ? "<th>" : "<td>";
+    const std::string end = i == 0 ? "</th>" : "</td>";
     html += "<tr>";
-    for (const std::string& text : rows[i]) html += "<" + cell + ">" + escape_html(text) + "</" + cell + ">";
+    for (const std::string& text : rows[i]) html.append(begin).append(escape_html(text)).append(end);
     html += "</tr>\n";
   }
   return html + "</table></div>\n";

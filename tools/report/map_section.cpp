@@ -20,6 +20,7 @@ constexpr float kAboveRobot_m = 1.0F;  // higher points would be ceilings and cr
 /// A little above the median height of the path.
 CutAbove cut_of(const std::vector<io::StampedPose>& trajectory) {
   std::vector<double> heights_m;
+  heights_m.reserve(trajectory.size());
   for (const io::StampedPose& pose : trajectory) heights_m.push_back(pose.world_from_body.translation_m.z());
   const auto median_m = percentile(std::move(heights_m), 0.5);
   return {median_m ? static_cast<float>(*median_m) + kAboveRobot_m : std::numeric_limits<float>::infinity()};

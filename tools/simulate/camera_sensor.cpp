@@ -27,6 +27,7 @@ std::array<std::uint8_t, kCodes> make_srgb_table() {
 
 std::uint8_t to_srgb(float linear) {
   static const std::array<std::uint8_t, kCodes> kTable = make_srgb_table();
+  // lround is a call, for every pixel. NOLINTNEXTLINE(bugprone-incorrect-roundings)
   return kTable[static_cast<std::size_t>(std::clamp(linear, 0.0F, 1.0F) * (kCodes - 1) + 0.5F)];
 }
 
