@@ -44,20 +44,20 @@ geometry::RigidTransform map_from_camera(const map::Keyframe& keyframe,
   return map_from_odom * keyframe.odom_from_body * keyframe.camera->body_from_camera;
 }
 
-std::string number_of(const map::Keyframe& keyframe) {
-  char name[16];
-  std::snprintf(name, sizeof name, "%06u", keyframe.id.value);
+std::string number_name(std::size_t number) {
+  char name[24];
+  std::snprintf(name, sizeof name, "%06zu", number);
   return name;
 }
 
-/// The camera is the same all the run.
+/// Writes `stem`.jpg and .json. The camera is the same all the run.
 Status write_picture(const map::Keyframe& keyframe, const image::Undistorter& undistorter,
-                     const std::filesystem::path& folder, const geometry::RigidTransform& map_from_odom) {
+                     const std::filesystem::path& stem, const geometry::RigidTransform& map_from_odom) {
   EDGESPLAT_TRY(const sensor::ImageRgb8 picture, io::decode_rgb8(keyframe.image->bytes));
-  const std::string stem = (folder / "keyframes" / number_of(keyframe)).string();
-  EDGESPLAT_TRY_STATUS(io::save_image(stem + ".jpg", undistorter.apply(picture)));
+  EDGESPLAT_TRY_STATUS(io::save_image(stem.string() + ".jpg", undistorter.apply(picture)));
   return io::write_file_atomically(
-      stem + ".json", describe(keyframe, undistorter.model(), map_from_camera(keyframe, map_from_odom)));
+      stem.string() + ".json",
+      describe(keyframe, undistorter.model(), map_from_camera(keyframe, map_from_odom)));
 }
 
 Status write_overlay_and_render(const map::Keyframe& keyframe, const geometry::CameraModel& pinhole,
@@ -66,7 +66,7 @@ Status write_overlay_and_render(const map::Keyframe& keyframe, const geometry::C
   EDGESPLAT_TRY(sensor::ImageRgb8 overlay, io::decode_rgb8(keyframe.image->bytes));
   render::draw_points_by_depth(keyframe.points_in_body, keyframe.camera->body_from_camera.inverse(),
                                keyframe.camera->model, kOverlayRangeM, overlay);
-  const std::string number = number_of(keyframe);
+  const std::string number = number_name(keyframe.id.value);
   EDGESPLAT_TRY_STATUS(io::save_image(folder / "keyframes" / (number + "_overlay.png"), overlay));
   EDGESPLAT_TRY(const render::View view,
                 render::draw_view(cloud, pinhole, map_from_camera(keyframe, map_from_odom).inverse()));
@@ -87,17 +87,26 @@ void KeyframeAlbum::add(std::shared_ptr<const map::Keyframe> keyframe) {
   whole_.add(std::move(keyframe));
 }
 
+void KeyframeAlbum::add_held_out(std::shared_ptr<const map::Keyframe> held_out) {
+  if (held_out->image && held_out->camera) held_out_.add(std::move(held_out));
+}
+
 Status KeyframeAlbum::write(const std::filesystem::path& folder, const gaussian::GaussianCloud& cloud,
                             const geometry::RigidTransform& map_from_odom) const {
   std::error_code error;
-  for (const char* sub : {"keyframes", "renders"}) {
+  for (const char* sub : {"keyframes", "renders", "heldout"}) {
     std::filesystem::create_directories(folder / sub, error);
     if (error) return fail(Errc::kIo, "cannot create " + (folder / sub).string() + ": " + error.message());
   }
   if (pictures_.kept().empty()) return {};
   const image::Undistorter undistorter(pictures_.kept().front()->camera->model);
   for (const auto& keyframe : pictures_.kept()) {
-    EDGESPLAT_TRY_STATUS(write_picture(*keyframe, undistorter, folder, map_from_odom));
+    EDGESPLAT_TRY_STATUS(write_picture(
+        *keyframe, undistorter, folder / "keyframes" / number_name(keyframe->id.value), map_from_odom));
+  }
+  for (std::size_t i = 0; i < held_out_.kept().size(); ++i) {
+    EDGESPLAT_TRY_STATUS(
+        write_picture(*held_out_.kept()[i], undistorter, folder / "heldout" / number_name(i), map_from_odom));
   }
   for (const auto& keyframe : whole_.kept()) {
     EDGESPLAT_TRY_STATUS(

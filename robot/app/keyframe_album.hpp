@@ -19,18 +19,21 @@ class KeyframeAlbum {
   explicit KeyframeAlbum(std::size_t max_keyframes) : whole_(max_keyframes) {}
 
   void add(std::shared_ptr<const map::Keyframe> keyframe);
+  /// A picture that the map did not get (up to 256).
+  void add_held_out(std::shared_ptr<const map::Keyframe> held_out);
   [[nodiscard]] std::size_t size() const { return whole_.kept().size(); }
 
   /// Writes keyframes/NNNNNN.jpg (undistorted) and .json (pose, camera) into `folder`, for the whole ones
   /// also keyframes/NNNNNN_overlay.png (points projected) and renders/NNNNNN.png (`cloud` drawn from the same
-  /// pose). Keyframes without a picture are left out. Errors: kIo, kCorrupt (a picture that no longer
-  /// decodes).
+  /// pose); for what was held out heldout/NNNNNN.{jpg,json}, counted from 0. Keyframes without a picture are
+  /// left out. Errors: kIo, kCorrupt (a picture that no longer decodes).
   [[nodiscard]] Status write(const std::filesystem::path& folder, const gaussian::GaussianCloud& cloud,
                              const geometry::RigidTransform& map_from_odom) const;
 
  private:
   EvenSample<std::shared_ptr<const map::Keyframe>> whole_;
   EvenSample<std::shared_ptr<const map::Keyframe>> pictures_{1024};  ///< without their points
+  EvenSample<std::shared_ptr<const map::Keyframe>> held_out_{256};
 };
 
 }  // namespace edgesplat::app

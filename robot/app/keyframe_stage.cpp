@@ -16,9 +16,11 @@ constexpr std::size_t kColouredMapPoints = 4'000'000;  // 64 MB
 KeyframeStage::KeyframeStage(const keyframe::KeyframeConfig& config, const sensor::Rig& rig,
                              KeyframeSink sink, const Clock& work_clock, metrics::Registry& metrics)
     : builder_(config, rig),
+      hold_out_(config),
       sink_(std::move(sink)),
       work_clock_(work_clock),
       made_(metrics.counter("keyframes.made")),
+      held_out_(metrics.counter("keyframes.held_out")),
       failed_(metrics.counter("keyframes.failed")),
       points_(metrics.counter("keyframes.points")),
       keyframe_ms_(metrics.histogram("keyframe.group_ms")),
@@ -26,9 +28,19 @@ KeyframeStage::KeyframeStage(const keyframe::KeyframeConfig& config, const senso
       album_(kAlbumKeyframes),
       coloured_map_(kColouredMapSpacingM, kColouredMapPoints) {}
 
+Result<std::shared_ptr<const map::Keyframe>> KeyframeStage::make(const TrackedFrame& frame) {
+  if (!frame.image || !hold_out_.takes(frame.group.stamp)) return builder_.add(frame.group, frame.image);
+  EDGESPLAT_TRY(auto held_out, builder_.hold_out(frame.group, *frame.image));
+  if (held_out) {
+    held_out_.add();
+    album_.add_held_out(std::move(held_out));
+  }
+  return nullptr;
+}
+
 void KeyframeStage::operator()(const TrackedFrame& frame) {
   const HostTime start = work_clock_.now();
-  auto made = builder_.add(frame.group, frame.image);
+  auto made = make(frame);
   if (!made) {
     failed_.add();
     EDGESPLAT_LOG_WARN("keyframe", "not made", "why", made.error().context);

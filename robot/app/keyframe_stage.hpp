@@ -7,6 +7,7 @@
 #include "robot/app/keyframe_album.hpp"
 #include "robot/app/run_log.hpp"
 #include "robot/keyframe/coloured_map.hpp"
+#include "robot/keyframe/hold_out.hpp"
 #include "robot/keyframe/keyframe_builder.hpp"
 
 #include <functional>
@@ -24,7 +25,8 @@ struct TrackedFrame {
   double latency_ms = 0.0;  ///< group complete -> pose known, waiting included
 };
 
-/// Last stage of the sensing chain: keeps the run's log, makes keyframes and hands them on. `work_clock`
+/// Last stage of the sensing chain: keeps the run's log, makes keyframes and hands them on; pictures that the
+/// configuration holds out go into the album alone (keyframes.held_out). `work_clock`
 /// measures what a stage costs (real time also in a lockstep run). Single-owner.
 class KeyframeStage {
  public:
@@ -40,10 +42,15 @@ class KeyframeStage {
   [[nodiscard]] const keyframe::ColouredMap& coloured_map() const { return coloured_map_; }
 
  private:
+  /// Null: no keyframe at this moment.
+  Result<std::shared_ptr<const map::Keyframe>> make(const TrackedFrame& frame);
+
   keyframe::KeyframeBuilder builder_;
+  keyframe::HoldOut hold_out_;
   KeyframeSink sink_;
   const Clock& work_clock_;
   metrics::Counter& made_;
+  metrics::Counter& held_out_;
   metrics::Counter& failed_;
   metrics::Counter& points_;
   metrics::Histogram& keyframe_ms_;

@@ -61,13 +61,36 @@ std::vector<map::ColouredPoint> KeyframeBuilder::collect_points(const tracking::
   return thin_points(std::move(points), static_cast<float>(config_.point_spacing_m));
 }
 
+Result<sensor::ImageRgb8> KeyframeBuilder::equalised(const sync::GroupImage& image) {
+  if (rig_.camera) EDGESPLAT_TRY_STATUS(check_size(*image.image, rig_.camera->model));
+  return exposure_.equalise(*image.image, image.exposure_s);
+}
+
+Result<std::shared_ptr<map::Keyframe>> KeyframeBuilder::begin_keyframe(
+    const tracking::TrackedGroup& group, const sync::GroupImage* image,
+    const sensor::ImageRgb8& picture) const {
+  auto keyframe = std::make_shared<map::Keyframe>();
+  if (image != nullptr) {
+    auto encoded = std::make_shared<map::EncodedImage>();
+    EDGESPLAT_TRY(encoded->bytes, io::encode_jpeg(picture, config_.jpeg_quality));
+    encoded->width_px = picture.width_px;
+    encoded->height_px = picture.height_px;
+    keyframe->image = std::move(encoded);
+    keyframe->exposure_s = image->exposure_s > 0.0F ? exposure_.reference_s() : 0.0F;
+  }
+  keyframe->stamp = group.stamp;
+  keyframe->odom_from_body = group.odom_from_body;
+  keyframe->pose_covariance = group.pose_covariance;
+  keyframe->camera = rig_.camera;
+  return keyframe;
+}
+
 Result<std::shared_ptr<const map::Keyframe>> KeyframeBuilder::add(
     const tracking::TrackedGroup& group, const std::optional<sync::GroupImage>& image) {
   if (group.health.state == tracking::TrackingState::kInitialising) return nullptr;
   sensor::ImageRgb8 picture;
   if (image) {
-    if (rig_.camera) EDGESPLAT_TRY_STATUS(check_size(*image->image, rig_.camera->model));
-    picture = exposure_.equalise(*image->image, image->exposure_s);
+    EDGESPLAT_TRY(picture, equalised(*image));
   }
   if (colouriser_) {
     colouriser_->add_points(group);
@@ -77,24 +100,23 @@ Result<std::shared_ptr<const map::Keyframe>> KeyframeBuilder::add(
   if (group.health.state != tracking::TrackingState::kTracking) return nullptr;
   if ((rig_.camera && !image) || !is_due(group)) return nullptr;
 
-  auto keyframe = std::make_shared<map::Keyframe>();
-  if (image) {
-    auto encoded = std::make_shared<map::EncodedImage>();
-    EDGESPLAT_TRY(encoded->bytes, io::encode_jpeg(picture, config_.jpeg_quality));
-    encoded->width_px = picture.width_px;
-    encoded->height_px = picture.height_px;
-    keyframe->image = std::move(encoded);
-    keyframe->exposure_s = image->exposure_s > 0.0F ? exposure_.reference_s() : 0.0F;
-  }
+  EDGESPLAT_TRY(std::shared_ptr<map::Keyframe> keyframe,
+                begin_keyframe(group, image ? &*image : nullptr, picture));
   keyframe->id = {next_id_++};
-  keyframe->stamp = group.stamp;
-  keyframe->odom_from_body = group.odom_from_body;
-  keyframe->pose_covariance = group.pose_covariance;
-  keyframe->camera = rig_.camera;
   keyframe->points_in_body = collect_points(group);
   last_odom_from_body_ = group.odom_from_body;
   last_stamp_ = group.stamp;
   return std::shared_ptr<const map::Keyframe>(std::move(keyframe));
+}
+
+Result<std::shared_ptr<const map::Keyframe>> KeyframeBuilder::hold_out(const tracking::TrackedGroup& group,
+                                                                       const sync::GroupImage& image) {
+  EDGESPLAT_TRY(const auto none, add(group, std::nullopt));
+  (void)none;  // with a camera, a moment without a picture is no keyframe
+  if (!rig_.camera || group.health.state != tracking::TrackingState::kTracking) return nullptr;
+  EDGESPLAT_TRY(const sensor::ImageRgb8 picture, equalised(image));
+  EDGESPLAT_TRY(std::shared_ptr<map::Keyframe> held_out, begin_keyframe(group, &image, picture));
+  return std::shared_ptr<const map::Keyframe>(std::move(held_out));
 }
 
 }  // namespace edgesplat::keyframe

@@ -27,11 +27,20 @@ class KeyframeBuilder {
   /// enough. Errors: kInvalidArgument when the picture cannot be encoded or its size is not the rig's.
   [[nodiscard]] Result<std::shared_ptr<const map::Keyframe>> add(
       const tracking::TrackedGroup& group, const std::optional<sync::GroupImage>& image);
+  /// A picture that the map is not to get: the moment as a keyframe without points and number, for comparing
+  /// with; null while there is no pose. The group's points wait for another picture's colours. Errors as of
+  /// add().
+  [[nodiscard]] Result<std::shared_ptr<const map::Keyframe>> hold_out(const tracking::TrackedGroup& group,
+                                                                      const sync::GroupImage& image);
   [[nodiscard]] std::int64_t points_without_colour() const {
     return colouriser_ ? colouriser_->expired_without_colour() : 0;
   }
 
  private:
+  [[nodiscard]] Result<sensor::ImageRgb8> equalised(const sync::GroupImage& image);
+  [[nodiscard]] Result<std::shared_ptr<map::Keyframe>> begin_keyframe(const tracking::TrackedGroup& group,
+                                                                      const sync::GroupImage* image,
+                                                                      const sensor::ImageRgb8& picture) const;
   [[nodiscard]] bool is_due(const tracking::TrackedGroup& group) const;
   [[nodiscard]] std::vector<map::ColouredPoint> collect_points(const tracking::TrackedGroup& group);
 

@@ -4,6 +4,9 @@
 
 #include "common/config/config_reader.hpp"
 
+#include <algorithm>
+#include <functional>
+
 namespace edgesplat::keyframe {
 
 void describe(config::ConfigReader& reader, KeyframeConfig& c) {
@@ -25,6 +28,15 @@ void describe(config::ConfigReader& reader, KeyframeConfig& c) {
   reader.field("point_spacing_m", c.point_spacing_m, Range{0.0, 1.0},
                "grid that thins a keyframe's points, 0 = all");
   reader.field("jpeg_quality", c.jpeg_quality, {1, 100}, "of the keyframes' pictures");
+  reader.field(
+      "hold_out_from_s", c.hold_out_from_s, Range{0.0, 1e6},
+      "begins of blocks of pictures that are kept from the map, to compare it with; none = all go in",
+      Range<std::size_t>{0, 16});
+  reader.field("hold_out_pictures", c.hold_out_pictures, {1, 32}, "pictures in a block");
+  if (std::adjacent_find(c.hold_out_from_s.begin(), c.hold_out_from_s.end(), std::greater_equal<>()) !=
+      c.hold_out_from_s.end()) {
+    reader.problem("hold_out_from_s", "must ascend");
+  }
 }
 
 }  // namespace edgesplat::keyframe

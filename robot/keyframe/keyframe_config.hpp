@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 namespace edgesplat::config {
 class ConfigReader;
 }
@@ -23,6 +25,10 @@ struct KeyframeConfig {
       60.0;  ///< farther points get no colour: calibration errors grow with range, [1, 500]
   double point_spacing_m = 0.03;  ///< keyframe points are thinned to this grid, [0, 1]; 0 = keep all
   int jpeg_quality = 92;          ///< [1, 100]
+  /// Blocks of pictures that the map never gets, to compare it with: when each begins after the first
+  /// picture, ascending; at most 16
+  std::vector<double> hold_out_from_s;  ///< [0, 1e6]
+  int hold_out_pictures = 8;            ///< a block, [1, 32]
 };
 
 /// Names, ranges and meaning of every field, for loading and printing.

@@ -33,7 +33,9 @@ TEST_F(OffloadRun, TheModeFollowsTheLink) {
 }
 
 TEST_F(OffloadRun, MemoryAloneOffloads) {
-  const auto robot = run({"--offload", "auto", "--set", "offload.memory_threshold_bytes=3e7"}, {});
+  const auto robot = run({"--offload", "auto", "--set", "offload.memory_threshold_bytes=3e7", "--set",
+                          "offload.latency_threshold_ms=1000"},
+                         {});
   ASSERT_EQ(robot.exit_code, 0) << robot.err;
   EXPECT_NE(robot.err.find("mode=FULL reason=memory"), std::string::npos) << robot.err;
 }

@@ -52,6 +52,22 @@ TEST(KeyframeAlbum, WritesEveryPictureButOnlyAFewWhole) {
   EXPECT_DOUBLE_EQ(json["map_from_camera"]["translation_m"][1].get<double>(), 7.0);
 }
 
+TEST(KeyframeAlbum, WritesWhatWasHeldOutApart) {
+  KeyframeAlbum album(4);
+  album.add(keyframe(0));
+  album.add_held_out(keyframe(7));
+  album.add_held_out(keyframe(8));
+  const test::TempDir folder;
+  const Status written = album.write(folder.path(), {}, {});
+  ASSERT_TRUE(written) << written.error().context;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "heldout" / "000000.jpg"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "heldout" / "000002.jpg"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "keyframes" / "000001.jpg"));
+  std::ifstream text(folder.path() / "heldout" / "000001.json");
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_DOUBLE_EQ(json["map_from_camera"]["translation_m"][0].get<double>(), 4.0);
+}
+
 TEST(KeyframeAlbum, LeavesOutWhatHasNoPicture) {
   KeyframeAlbum album(4);
   auto blind = std::make_shared<map::Keyframe>(*keyframe(0));

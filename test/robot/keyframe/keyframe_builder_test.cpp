@@ -59,6 +59,39 @@ TEST(KeyframeBuilder, NothingIsBuiltWhileInitialisingOrCoastingOrBlind) {
   EXPECT_EQ(*builder.add(group, std::nullopt), nullptr);
 }
 
+TEST(KeyframeBuilder, WhatIsHeldOutGivesNeitherColoursNorAKeyframe) {
+  KeyframeConfig config;
+  KeyframeBuilder builder(config, forward_rig());
+  auto group = tracked_at(1.0, {1, 0, 0});
+  add_wall(group, 4.0F, 1.0F, 0.25F);
+  const std::size_t points = group.points_in_body.size();
+  auto green = std::make_shared<sensor::ImageRgb8>(100, 80);
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 100; ++x) green->pixel(x, y)[1] = 250;
+  const auto held_out = builder.hold_out(group, {green, 0.005F, 0.0F, 1});
+  ASSERT_TRUE(held_out.has_value()) << held_out.error().context;
+  ASSERT_NE(*held_out, nullptr);
+  EXPECT_EQ((*held_out)->stamp, group.stamp);
+  EXPECT_TRUE((*held_out)->points_in_body.empty());
+  ASSERT_NE((*held_out)->image, nullptr);
+  EXPECT_GT(io::decode_rgb8((*held_out)->image->bytes)->pixel(50, 40)[1], 200);
+  // The next picture makes the first keyframe, with the points that waited, in its own colours.
+  const auto next = builder.add(tracked_at(1.1, {1, 0, 0}), picture());
+  ASSERT_NE(*next, nullptr);
+  EXPECT_EQ((*next)->id.value, 0U);
+  ASSERT_EQ((*next)->points_in_body.size(), points);
+  for (const auto& point : (*next)->points_in_body) EXPECT_LT(point.rgb[1], 10);
+}
+
+TEST(KeyframeBuilder, NothingIsHeldOutWithoutAPose) {
+  KeyframeBuilder builder(KeyframeConfig{}, forward_rig());
+  auto group = tracked_at(1.0, {0, 0, 0});
+  for (const auto state : {tracking::TrackingState::kInitialising, tracking::TrackingState::kCoasting}) {
+    group.health.state = state;
+    EXPECT_EQ(*builder.hold_out(group, picture()), nullptr);
+  }
+}
+
 TEST(KeyframeBuilder, PictureOfAnotherSizeIsAnError) {
   KeyframeBuilder builder(KeyframeConfig{}, forward_rig());
   const sync::GroupImage wrong{std::make_shared<sensor::ImageRgb8>(64, 48), 0.0F, 0.0F, 1};
