@@ -3,20 +3,25 @@
 #include "tools/desk/score.hpp"
 
 #include "common/io/atomic_file.hpp"
+#include "common/io/image_file.hpp"
 #include "common/io/mcap_reader.hpp"
 #include "common/io/ply_gaussians.hpp"
 #include "common/io/recording_topics.hpp"
 #include "common/sensor/rig_config.hpp"
 #include "kernels/image/undistort.hpp"
 #include "tools/quality/held_out_scores.hpp"
+#include "tools/quality/load_where_there.hpp"
+#include "tools/quality/static_mask.hpp"
 #include "tools/report/references.hpp"
 #include "tools/simulate/simulate_options.hpp"
 #include "tools/simulate/virtual_camera.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace edgesplat::desk {
 namespace {
@@ -26,7 +31,8 @@ Result<std::unique_ptr<simulate::World>> world_of(const std::filesystem::path& r
   auto attachment = reader.attachment(io::kWorldAttachment);
   if (!attachment) {
     return fail(Errc::kNotFound, recording.string() + " was not simulated (" + attachment.error().context +
-                                     "): there is no clean world to compare with");
+                                     "): there is no clean world to compare with. Without --input the map is "
+                                     "compared with pictures that the robot held out of mapping");
   }
   const auto* text = reinterpret_cast<const char*>(attachment->content.data());
   EDGESPLAT_TRY(const simulate::SimulateOptions options,
@@ -43,37 +49,97 @@ Result<std::vector<accuracy::PosePair>> truth_of(report::RunFolder& run, const s
                                    (run.missing.empty() ? "give --input" : run.missing.back()));
 }
 
-}  // namespace
-
-Result<nlohmann::json> score_run(const ScoreOptions& options) {
-  EDGESPLAT_TRY(const std::unique_ptr<simulate::World> world, world_of(options.input));
-  EDGESPLAT_TRY(report::RunFolder run, report::read_run_folder(options.run));
-  EDGESPLAT_TRY(const auto truth, truth_of(run, options.input));
-  EDGESPLAT_TRY(const sensor::Rig rig, sensor::parse_rig(run.rig_toml, "rig.toml"));
-  if (!rig.camera) return fail(Errc::kNotFound, "the robot of this run has no camera");
-
+/// What a run gives however it is scored: keyframes and maps.
+Result<quality::HeldOutInput> maps_of(const std::filesystem::path& run) {
   quality::HeldOutInput input;
-  EDGESPLAT_TRY(input.keyframes, quality::read_saved_keyframes(options.run / "robot" / "keyframes"));
-  for (auto& keyframe : input.keyframes) keyframe.stamp -= report::host_minus_recording(run);
-  EDGESPLAT_TRY(input.views, quality::choose_held_out_views(input.keyframes, truth,
-                                                            rig.camera->body_from_camera, options.views));
-  EDGESPLAT_TRY(input.map, io::read_gaussians_ply(options.run / "robot" / "gaussians_at_input_end.ply"));
-  const auto seeded = options.run / "server" / "seeded.ply";
+  EDGESPLAT_TRY(input.keyframes, quality::read_saved_keyframes(run / "robot" / "keyframes"));
+  EDGESPLAT_TRY(input.map, io::read_gaussians_ply(run / "robot" / "gaussians_at_input_end.ply"));
+  const auto seeded = run / "server" / "seeded.ply";
   if (std::filesystem::exists(seeded)) {
     EDGESPLAT_TRY(input.seeded, io::read_gaussians_ply(seeded));
   }
+  return input;
+}
+
+Result<std::vector<quality::SavedKeyframe>> pictures_held_out(const std::filesystem::path& run) {
+  auto pictures = quality::read_saved_keyframes(run / "robot" / "heldout");
+  if (pictures || pictures.error().code != Errc::kNotFound) return pictures;
+  return fail(Errc::kNotFound,
+              "nothing to compare the map of " + run.string() +
+                  " with: give the simulated recording with --input, or let the robot hold pictures out of "
+                  "mapping (there are none in " +
+                  (run / "robot" / "heldout").string() + ")");
+}
+
+/// The run's camera, as far as scoring goes.
+struct ScoredCamera {
+  geometry::RigidTransform body_from_camera;
+  std::vector<float> seen;  ///< [H,W] pixels that the undistorted camera sees
+};
+Result<ScoredCamera> camera_of(const report::RunFolder& run) {
+  EDGESPLAT_TRY(const sensor::Rig rig, sensor::parse_rig(run.rig_toml, "rig.toml"));
+  if (!rig.camera) return fail(Errc::kNotFound, "the robot of this run has no camera");
   const image::Undistorter undistorter(rig.camera->model);
-  input.seen.assign(undistorter.seen().begin(), undistorter.seen().end());
-  input.target = [&](const quality::HeldOutView& view) -> Result<sensor::ImageRgb8> {
-    return simulate::clean_picture(*world, input.keyframes.front().camera, view.world_from_camera);
+  return ScoredCamera{rig.camera->body_from_camera, {undistorter.seen().begin(), undistorter.seen().end()}};
+}
+
+Result<quality::HeldOutScores> score_against_world(const ScoreOptions& options, report::RunFolder& run,
+                                                   quality::Lpips* lpips) {
+  EDGESPLAT_TRY(const std::unique_ptr<simulate::World> world, world_of(options.input));
+  EDGESPLAT_TRY(const auto truth, truth_of(run, options.input));
+  EDGESPLAT_TRY(const ScoredCamera camera, camera_of(run));
+  EDGESPLAT_TRY(quality::HeldOutInput input, maps_of(options.run));
+  for (auto& keyframe : input.keyframes) keyframe.stamp -= report::host_minus_recording(run);
+  EDGESPLAT_TRY(input.views, quality::choose_held_out_views(input.keyframes, truth, camera.body_from_camera,
+                                                            options.views));
+  input.kind = quality::HeldOutKind::kSimulated;
+  input.lpips = lpips;
+  input.truth = [&](const quality::HeldOutView& view) -> Result<quality::HeldOutTruth> {
+    return quality::HeldOutTruth{
+        simulate::clean_picture(*world, input.keyframes.front().camera, view.world_from_camera), camera.seen};
   };
-  std::optional<quality::Lpips> lpips;
-  if (!options.lpips_model.empty() && std::filesystem::exists(options.lpips_model)) {
-    EDGESPLAT_TRY(auto network, quality::Lpips::load(options.lpips_model));
-    lpips = std::move(network);
-    input.lpips = &*lpips;
+  return quality::score_held_out(input, options.run / "heldout");
+}
+
+/// `mask` may be null: then every pixel counts that the camera saw.
+Result<quality::HeldOutTruth> truth_of_picture(const std::filesystem::path& path, const ScoredCamera& camera,
+                                               quality::StaticMask* mask) {
+  quality::HeldOutTruth truth{{}, camera.seen};
+  EDGESPLAT_TRY(truth.picture, io::load_rgb8(path));
+  if (truth.picture.values.size() != 3 * truth.weight.size()) {
+    return fail(Errc::kCorrupt, path.string() + " does not have the size of the camera in rig.toml");
   }
-  EDGESPLAT_TRY(const auto scores, quality::score_held_out(input, options.run / "heldout"));
+  if (mask == nullptr) return truth;
+  EDGESPLAT_TRY(const std::vector<float> stays, mask->weight(truth.picture));
+  for (std::size_t i = 0; i < stays.size(); ++i) truth.weight[i] *= stays[i];
+  return truth;
+}
+
+Result<quality::HeldOutScores> score_against_pictures(const ScoreOptions& options,
+                                                      const report::RunFolder& run, quality::Lpips* lpips) {
+  EDGESPLAT_TRY(const auto held_out, pictures_held_out(options.run));
+  EDGESPLAT_TRY(const ScoredCamera camera, camera_of(run));
+  EDGESPLAT_TRY(auto mask, quality::load_where_there<quality::StaticMask>(options.mask_model));
+  EDGESPLAT_TRY(quality::HeldOutInput input, maps_of(options.run));
+  EDGESPLAT_TRY(input.views, quality::views_of_pictures(input.keyframes, held_out, options.views));
+  input.kind = quality::HeldOutKind::kReal;
+  input.movers_masked = mask.has_value();
+  input.lpips = lpips;
+  input.truth = [&](const quality::HeldOutView& view) {
+    return truth_of_picture(view.picture, camera, mask ? &*mask : nullptr);
+  };
+  return quality::score_held_out(input, options.run / "heldout");
+}
+
+}  // namespace
+
+Result<nlohmann::json> score_run(const ScoreOptions& options) {
+  EDGESPLAT_TRY(report::RunFolder run, report::read_run_folder(options.run));
+  EDGESPLAT_TRY(auto network, quality::load_where_there<quality::Lpips>(options.lpips_model));
+  quality::Lpips* lpips = network ? &*network : nullptr;
+  EDGESPLAT_TRY(const quality::HeldOutScores scores, options.input.empty()
+                                                         ? score_against_pictures(options, run, lpips)
+                                                         : score_against_world(options, run, lpips));
   nlohmann::json json = quality::to_json(scores);
   EDGESPLAT_TRY_STATUS(io::write_file_atomically(options.run / "heldout.json", json.dump(1) + "\n"));
   return json;

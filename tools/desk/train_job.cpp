@@ -8,6 +8,7 @@
 #include "tools/desk/convert.hpp"
 #include "tools/desk/render_set.hpp"
 #include "tools/desk/scene_start.hpp"
+#include "tools/quality/load_where_there.hpp"
 #include "tools/quality/picture_score.hpp"
 
 #include <utility>
@@ -47,17 +48,11 @@ Status take_start_points(const Pictures& pictures, Scene& scene, TrainReport& re
   return {};
 }
 
-Result<std::optional<quality::Lpips>> load_lpips(const std::filesystem::path& folder) {
-  if (folder.empty() || !std::filesystem::exists(folder)) return std::optional<quality::Lpips>();
-  EDGESPLAT_TRY(auto lpips, quality::Lpips::load(folder));
-  return std::optional(std::move(lpips));
-}
-
 /// Draws the held-out cameras from the map and compares with their pictures.
 Status score_held_out(const TrainJob& job, const gaussian::GaussianCloud& map, const Pictures& held_out,
                       const Clock& clock, TrainReport& report) {
   if (held_out.empty()) return {};
-  EDGESPLAT_TRY(auto lpips, load_lpips(job.lpips_model));
+  EDGESPLAT_TRY(auto lpips, quality::load_where_there<quality::Lpips>(job.lpips_model));
   if (!job.renders.empty()) {
     std::error_code error;
     std::filesystem::create_directories(job.renders, error);

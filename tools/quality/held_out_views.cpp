@@ -21,6 +21,15 @@ std::optional<std::size_t> pair_at(std::span<const accuracy::PosePair> truth, Ho
   return static_cast<std::size_t>(after - truth.begin());
 }
 
+/// `most` of `count` numbers, each in the middle of its share.
+std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> chosen(std::min(most, count));
+  for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = (2 * i + 1) * count / (2 * chosen.size());
+  return chosen;
+}
+
+}  // namespace
+
 std::size_t most_alike(std::span<const SavedKeyframe> keyframes,
                        const geometry::RigidTransform& map_from_camera) {
   std::size_t best = 0;
@@ -36,8 +45,6 @@ std::size_t most_alike(std::span<const SavedKeyframe> keyframes,
   }
   return best;
 }
-
-}  // namespace
 
 Result<geometry::RigidTransform> align_map(std::span<const SavedKeyframe> keyframes,
                                            std::span<const accuracy::PosePair> truth,
@@ -83,15 +90,38 @@ Result<std::vector<HeldOutView>> choose_held_out_views(std::span<const SavedKeyf
   }
   if (rows.empty()) return fail(Errc::kNotFound, "no true pose lies between two keyframes");
   std::vector<HeldOutView> views;
-  const std::size_t count = std::min(most, rows.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const accuracy::PosePair& pair = truth[rows[(2 * i + 1) * rows.size() / (2 * count)]];
+  for (const std::size_t i : evenly_spread(rows.size(), most)) {
+    const accuracy::PosePair& pair = truth[rows[i]];
     HeldOutView view;
     view.stamp = pair.stamp;
     view.world_from_camera = pair.reference * body_from_camera;
     view.map_from_camera = map_from_world * view.world_from_camera;
     view.nearest_keyframe = most_alike(keyframes, view.map_from_camera);
     views.push_back(view);
+  }
+  return views;
+}
+
+Result<std::vector<HeldOutView>> views_of_pictures(std::span<const SavedKeyframe> keyframes,
+                                                   std::span<const SavedKeyframe> held_out,
+                                                   std::size_t most) {
+  std::vector<HeldOutView> views;
+  for (const std::size_t i : evenly_spread(held_out.size(), most)) {
+    const SavedKeyframe& picture = held_out[i];
+    HeldOutView view;
+    view.stamp = picture.stamp;
+    view.map_from_camera = picture.map_from_camera;
+    view.nearest_keyframe = most_alike(keyframes, view.map_from_camera);
+    view.picture = picture.image;
+    view.block = picture.block;
+    views.push_back(std::move(view));
+  }
+  for (const SavedKeyframe& keyframe : keyframes) {
+    for (const HeldOutView& view : views) {
+      if (std::chrono::abs(keyframe.stamp - view.stamp) > kSameMoment) continue;
+      return fail(Errc::kCorrupt, view.picture.string() + " was not held out: " + keyframe.image.string() +
+                                      " is of the same moment");
+    }
   }
   return views;
 }

@@ -25,6 +25,7 @@ SavedKeyframe keyframe_of(const nlohmann::json& json) {
   keyframe.camera.fy_px = camera.at("fy_px").get<double>();
   keyframe.camera.cx_px = camera.at("cx_px").get<double>();
   keyframe.camera.cy_px = camera.at("cy_px").get<double>();
+  if (json.contains("block")) keyframe.block = json.at("block").get<int>();
   return keyframe;
 }
 

@@ -49,6 +49,13 @@ expect 0 evaluate --estimate "$work/a.tum" --reference "$work/a.tum"
 expect 1 evaluate --estimate "$work/none.tum" --reference "$work/a.tum"
 expect 1 report --run "$work/none"
 expect 2 inspect "$work/a.tum" --extract rig.toml
+expect 2 score
+expect 1 score --run "$work/none"
+expect 1 score --run "$work/run"
+for words in "--input" "hold pictures out of mapping"; do
+  grep -q -e "$words" "$work/stderr" || { failures=$((failures + 1)); echo "score does not say '$words'"; }
+done
+expect 1 score --run "$work/run" --input "$work/a.tum"
 
 printf 'ply\nformat ascii 1.0\nelement vertex 1\n' >"$work/a.ply"
 for column in x y z f_dc_0 f_dc_1 f_dc_2 opacity scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3; do

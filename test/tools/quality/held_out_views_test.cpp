@@ -82,5 +82,66 @@ TEST(HeldOutViews, AreSpreadEvenlyWhenThereAreTooMany) {
   EXPECT_GT(*stamps.rbegin(), to_ns(at(2.8)));
 }
 
+TEST(MostAlike, WeighsTurnsAndWays) {
+  const Drive drive;
+  EXPECT_EQ(most_alike(drive.keyframes, drive.keyframes[6].map_from_camera), 6U);
+  std::vector<SavedKeyframe> two(2);
+  two[0].map_from_camera = pose(0.0, {0, 0, 1}, {0.5, 0.0, 0.0});
+  two[1].map_from_camera = pose(0.2, {0, 0, 1}, {0.0, 0.0, 0.0});  // about as far as 0.6 m
+  EXPECT_EQ(most_alike(two, {}), 0U);
+  two[1].map_from_camera = pose(0.1, {0, 0, 1}, {0.0, 0.0, 0.0});
+  EXPECT_EQ(most_alike(two, {}), 1U);
+}
+
+/// Pictures of moments between the drive's keyframes, in two blocks.
+std::vector<SavedKeyframe> pictures_between(const Drive& drive) {
+  std::vector<SavedKeyframe> pictures;
+  for (const std::size_t row : {5U, 6U, 7U, 33U, 34U, 35U}) {
+    SavedKeyframe picture;
+    picture.stamp = drive.truth[row].stamp;
+    picture.map_from_camera = drive.map_from_world * drive.truth[row].reference * drive.body_from_camera;
+    picture.image = std::to_string(row) + ".jpg";
+    picture.block = row < 20 ? 0 : 1;
+    pictures.push_back(picture);
+  }
+  return pictures;
+}
+
+TEST(ViewsOfPictures, AreThePicturesWithTheKeyframeMostAlike) {
+  const Drive drive;
+  const auto pictures = pictures_between(drive);
+  const auto views = views_of_pictures(drive.keyframes, pictures, 24);
+  ASSERT_TRUE(views) << views.error().context;
+  ASSERT_EQ(views->size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ((*views)[i].stamp, pictures[i].stamp);
+    EXPECT_EQ((*views)[i].picture, pictures[i].image);
+    EXPECT_EQ((*views)[i].block, pictures[i].block);
+    EXPECT_EQ((*views)[i].map_from_camera.translation_m, pictures[i].map_from_camera.translation_m);
+  }
+  EXPECT_EQ((*views)[0].nearest_keyframe, 1U);
+  EXPECT_EQ((*views)[2].nearest_keyframe, 2U);
+  EXPECT_EQ((*views)[5].nearest_keyframe, 9U);
+}
+
+TEST(ViewsOfPictures, AreSpreadEvenlyWhenThereAreTooMany) {
+  const Drive drive;
+  const auto views = views_of_pictures(drive.keyframes, pictures_between(drive), 2);
+  ASSERT_TRUE(views);
+  ASSERT_EQ(views->size(), 2U);
+  EXPECT_EQ((*views)[0].picture, "6.jpg");
+  EXPECT_EQ((*views)[1].picture, "34.jpg");
+}
+
+TEST(ViewsOfPictures, APictureThatWasMappedIsRefused) {
+  const Drive drive;
+  auto pictures = pictures_between(drive);
+  pictures[4].stamp = drive.keyframes[8].stamp;
+  const auto views = views_of_pictures(drive.keyframes, pictures, 24);
+  ASSERT_FALSE(views);
+  EXPECT_EQ(views.error().code, Errc::kCorrupt);
+  EXPECT_NE(views.error().context.find("34.jpg was not held out"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace edgesplat::quality
