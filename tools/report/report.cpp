@@ -20,7 +20,6 @@ Result<Report> write_report(const ReportOptions& options) {
     if (picture.quality) qualities.push_back(*picture.quality);
   }
   report.summary = summarise(run, report.references, qualities);
-  report.missing = run.missing;
   report.page = options.run / "report.html";
 
   std::string body = headline_section(report.summary);
@@ -32,6 +31,7 @@ Result<Report> write_report(const ReportOptions& options) {
   body += modes_section(run, report.summary.link);
   body += losses_section(run);
   body += settings_section(run);
+  report.missing = run.missing;
   const std::string title = "edgesplat run " + std::filesystem::absolute(options.run).filename().string();
   EDGESPLAT_TRY_STATUS(io::write_file_atomically(report.page, html_page(title, body)));
   const std::string summary = to_json(report.summary, report.references).dump(2) + "\n";

@@ -29,7 +29,8 @@ struct KeyframePictures {
 [[nodiscard]] std::vector<KeyframePictures> keyframe_pictures(RunFolder& run, std::size_t limit);
 [[nodiscard]] std::string camera_section(const std::vector<KeyframePictures>& pictures);
 
-/// The map from places between keyframes, beside what should be seen; empty where the run was not scored.
+/// The map from places between keyframes or of pictures held out of mapping, beside what should be seen;
+/// empty where the run was not scored.
 [[nodiscard]] std::string held_out_section(RunFolder& run, std::size_t limit);
 
 /// Stage times: table of percentiles, curves over time; points and poses a second.

@@ -57,6 +57,8 @@ nlohmann::json or_null(const std::optional<double>& value) {
 }
 
 void read_held_out(const nlohmann::json& held_out, Summary& s) {
+  s.real_pictures_held_out = held_out.is_object() && held_out.value("kind", nlohmann::json()) == "real";
+  s.static_share = number_of(held_out, "static_share");
   s.psnr_db = number_of(held_out, "psnr_db");
   s.ssim = number_of(held_out, "ssim");
   s.lpips = number_of(held_out, "lpips");
@@ -144,7 +146,9 @@ nlohmann::json to_json(const Summary& s, const std::vector<Reference>& reference
                          {"psnr_db", or_null(s.psnr_db)},
                          {"ssim", or_null(s.ssim)},
                          {"lpips", or_null(s.lpips)},
+                         {"static_share", or_null(s.static_share)},
                          {"psnr_seeded_db", or_null(s.psnr_seeded_db)},
+                         {"psnr_nearest_db", or_null(s.psnr_nearest_db)},
                          {"psnr_nearest_db", or_null(s.psnr_nearest_db)},
                          {"render_fps_p50", or_null(s.render_fps_p50)},
                          {"render_ms_p95", or_null(s.render_ms_p95)},

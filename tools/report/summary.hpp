@@ -35,7 +35,9 @@ struct Summary {
   LinkFigures link;
   std::optional<double> robot_peak_rss_mb;
   std::optional<double> server_peak_rss_mb;
-  std::optional<double> psnr_db;          ///< the map from places between keyframes against the clean world
+  bool real_pictures_held_out = false;    ///< what the next figures are against; else the clean world
+  std::optional<double> static_share;     ///< of the pixels, those that count in them
+  std::optional<double> psnr_db;          ///< the map from places that no keyframe was taken from
   std::optional<double> ssim;             ///< of the same pictures
   std::optional<double> lpips;            ///< of the same pictures
   std::optional<double> psnr_seeded_db;   ///< the same map before it was optimised

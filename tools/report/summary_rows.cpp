@@ -42,6 +42,9 @@ std::vector<SummaryRow> summary_rows(const Summary& s) {
   std::string quality = text_or_dash(s.render_psnr_db, "dB", 1);
   if (s.render_coverage) quality += fmt::format(" over {:.0f} % of the picture", 100.0 * *s.render_coverage);
   std::string held_out = text_or_dash(s.psnr_db, "dB", 1);
+  if (s.real_pictures_held_out && s.static_share) {
+    held_out += fmt::format(" over {:.0f} % of the pixels", 100.0 * *s.static_share);
+  }
   if (s.psnr_seeded_db) held_out += fmt::format(", {:.1f} before optimising", *s.psnr_seeded_db);
   if (s.psnr_nearest_db) held_out += fmt::format(", nearest keyframe {:.1f}", *s.psnr_nearest_db);
   return {
@@ -53,7 +56,8 @@ std::vector<SummaryRow> summary_rows(const Summary& s) {
       {"Packets lost", text_or_dash(s.packets_lost, "", 0)},
       {"Keyframes", text_or_dash(s.keyframes, "", 0)},
       {"Gaussians on the robot", text_or_dash(s.gaussians, "", 0)},
-      {"Map between keyframes (PSNR)", held_out},
+      {s.real_pictures_held_out ? "Map at held-out pictures (PSNR)" : "Map between keyframes (PSNR)",
+       held_out},
       {"Render beside camera (PSNR)", quality},
       {"Render time", text_or_dash(s.render_fps_p50, "pictures/s median", 0) +
                           (s.render_ms_p95 ? fmt::format(", {:.1f} ms p95", *s.render_ms_p95) : "")},
