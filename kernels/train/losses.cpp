@@ -142,4 +142,27 @@ double depth_loss(const DepthPair& pair, float factor, float min_alpha, std::spa
   return total > 0.0 ? sum / total : 0.0;
 }
 
+double add_gap_loss(std::span<const float> alpha, std::span<const float> weight, float factor,
+                    std::span<float> by_alpha) {
+  EDGESPLAT_CHECK(by_alpha.size() == alpha.size() && (weight.empty() || weight.size() == alpha.size()),
+                  "pictures of one size");
+  const auto weight_of = [&](std::size_t pixel) { return weight.empty() ? 1.0F : weight[pixel]; };
+  const double total = sum_over_blocks(alpha.size(), [&](std::size_t first, std::size_t last) {
+    double sum = 0.0;
+    for (std::size_t i = first; i < last; ++i) sum += static_cast<double>(weight_of(i));
+    return sum;
+  });
+  if (total <= 0.0) return 0.0;
+  const auto slope = static_cast<float>(static_cast<double>(factor) / total);
+  const double open = sum_over_blocks(alpha.size(), [&](std::size_t first, std::size_t last) {
+    double sum = 0.0;
+    for (std::size_t i = first; i < last; ++i) {
+      by_alpha[i] -= slope * weight_of(i);
+      sum += static_cast<double>(weight_of(i) * (1.0F - alpha[i]));
+    }
+    return sum;
+  });
+  return open / total;
+}
+
 }  // namespace edgesplat::train

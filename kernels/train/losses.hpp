@@ -32,4 +32,10 @@ struct DepthPair {
 double depth_loss(const DepthPair& pair, float factor, float min_alpha, std::span<float> by_depth_sum,
                   std::span<float> by_alpha);
 
+/// What is left open where the world has something everywhere: the mean of 1 - alpha [H,W] over the weighted
+/// pixels. Adds `factor` times its slope to `by_alpha` [H,W]; returns the mean before `factor`. `weight`:
+/// empty: every pixel counts. Deterministic.
+double add_gap_loss(std::span<const float> alpha, std::span<const float> weight, float factor,
+                    std::span<float> by_alpha);
+
 }  // namespace edgesplat::train

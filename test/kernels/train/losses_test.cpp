@@ -92,6 +92,22 @@ TEST(DepthLoss, GradientAgreesWithDifferencesWhereThereIsAMeasurement) {
   }
 }
 
+TEST(GapLoss, IsTheOpenShareOfWhatCountsAndAddsItsSlope) {
+  const std::vector<float> alpha = {1.0F, 0.25F, 0.5F, 0.0F};
+  const std::vector<float> weight = {1.0F, 1.0F, 0.0F, 2.0F};
+  std::vector<float> by_alpha = {0.5F, 0.0F, 0.0F, 0.0F};
+  EXPECT_NEAR(add_gap_loss(alpha, weight, 0.4F, by_alpha), (0.0 + 0.75 + 2.0) / 4.0, 1e-6);
+  EXPECT_NEAR(by_alpha[0], 0.5F - 0.1F, 1e-6F) << "what was there stays";
+  EXPECT_NEAR(by_alpha[1], -0.1F, 1e-6F);
+  EXPECT_EQ(by_alpha[2], 0.0F);
+  EXPECT_NEAR(by_alpha[3], -0.2F, 1e-6F);
+  by_alpha.assign(4, 0.0F);
+  EXPECT_NEAR(add_gap_loss(alpha, {}, 1.0F, by_alpha), 2.25 / 4.0, 1e-6);
+  EXPECT_NEAR(by_alpha[2], -0.25F, 1e-6F);
+  const std::vector<float> nothing(4, 0.0F);
+  EXPECT_EQ(add_gap_loss(alpha, nothing, 1.0F, by_alpha), 0.0);
+}
+
 TEST(Psnr, OfAKnownDifference) {
   const std::vector<float> target(300, 0.5F), drawn(300, 0.6F);
   EXPECT_NEAR(psnr_db({10, 10, drawn, target, {}}), 20.0, 1e-4);
