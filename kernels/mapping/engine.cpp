@@ -4,7 +4,6 @@
 
 #include "common/base/check.hpp"
 #include "common/sensor/image_values.hpp"
-#include "kernels/splat/render.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +27,23 @@ void ignore_filled(const std::vector<float>& alpha, StoredView& view) {
 
 Eigen::Vector3f mean_of(const gaussian::GaussianCloud& cloud, std::size_t row) {
   return Eigen::Map<const Eigen::Vector3f>(&cloud.means_m[3 * row]);
+}
+
+/// The least whole factor that leaves so many pixels.
+int shrink_to(std::size_t most_pixels, const geometry::CameraModel& camera) {
+  const auto pixels = static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
+  std::size_t shrink = 1;
+  while (pixels / (shrink * shrink) > most_pixels) ++shrink;
+  return static_cast<int>(shrink);
+}
+
+/// Nothing where one of `masks` is set is trained on.
+void leave_out(std::span<const std::vector<bool>* const> masks, std::vector<float>& weight) {
+  for (const std::vector<bool>* mask : masks) {
+    for (std::size_t pixel = 0; pixel < mask->size(); ++pixel) {
+      if ((*mask)[pixel]) weight[pixel] = 0.0F;
+    }
+  }
 }
 
 }  // namespace
@@ -69,11 +85,15 @@ Result<std::size_t> MappingEngine::add(const map::Keyframe& keyframe,
   if (options_.seen_through.enabled) EDGESPLAT_TRY_STATUS(forget_what_is_gone(*view));
   std::vector<float> elsewhere_alpha;
   if (elsewhere_ && elsewhere_->size() > 0) {
-    EDGESPLAT_TRY_STATUS(draw_alpha(*view, *elsewhere_, elsewhere_alpha));
+    EDGESPLAT_TRY(elsewhere_alpha, draw_alpha(*view, *elsewhere_, {}));
     ignore_filled(elsewhere_alpha, *view);
   }
   if (options_.fill.enabled && ground_) {
-    EDGESPLAT_TRY(const std::size_t filled, fill(*view, input, std::move(elsewhere_alpha)));
+    EDGESPLAT_TRY(const std::size_t filled, fill_floor(*view, input, elsewhere_alpha));
+    added += filled;
+  }
+  if (options_.sweep.enabled) {
+    EDGESPLAT_TRY(const std::size_t filled, fill_by_sweep(*view, input, elsewhere_alpha));
     added += filled;
   }
   views_.add(*std::move(view));
@@ -141,32 +161,6 @@ Status MappingEngine::remove_gone(std::span<const std::uint32_t> rows) {
   return optimiser_.remove_rows(rows);
 }
 
-Status MappingEngine::draw_alpha(const StoredView& view, const gaussian::GaussianCloud& cloud,
-                                 std::vector<float>& alpha) {
-  EDGESPLAT_TRY(const splat::View drawn_from,
-                splat::View::from(view.camera(), view.map_from_camera.inverse()));
-  const std::size_t pixels = view.undistorter->seen().size();
-  colour_.resize(3 * pixels);
-  depth_m_.resize(pixels);
-  std::vector<float> drawn(pixels);
-  EDGESPLAT_TRY(const splat::RenderStats stats, splat::render(core::Backend::kCpu, splat::spans_of(cloud),
-                                                              drawn_from, {}, {colour_, depth_m_, drawn}));
-  (void)stats;
-  alpha.resize(pixels, 0.0F);
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-    alpha[pixel] = 1.0F - (1.0F - alpha[pixel]) * (1.0F - drawn[pixel]);
-  return {};
-}
-
-Result<std::size_t> MappingEngine::fill(const StoredView& view, const SeedInput& seeded,
-                                        std::vector<float> alpha) {
-  EDGESPLAT_TRY_STATUS(draw_alpha(view, cloud(), alpha));
-  const auto points = fill_holes(view, seeded.map_from_body, *ground_, alpha, options_.fill);
-  SeedInput holes = seeded;
-  holes.points_in_body = points;
-  return seed(holes);
-}
-
 void MappingEngine::set_elsewhere(std::shared_ptr<const gaussian::GaussianCloud> elsewhere) {
   elsewhere_ = std::move(elsewhere);
   if (elsewhere_) seeder_.cover(*elsewhere_);
@@ -175,7 +169,8 @@ void MappingEngine::set_elsewhere(std::shared_ptr<const gaussian::GaussianCloud>
 std::shared_ptr<const image::Undistorter> MappingEngine::undistorter_of(const geometry::CameraModel& camera) {
   if (!camera_ || !(*camera_ == camera)) {
     camera_ = camera;
-    undistorter_ = std::make_shared<const image::Undistorter>(camera);
+    undistorter_ =
+        std::make_shared<const image::Undistorter>(camera, shrink_to(options_.most_pixels, camera));
   }
   return undistorter_;
 }
@@ -196,11 +191,10 @@ TrainingView MappingEngine::prepare(const StoredView& view) {
   training.colour = colour_;
   training.depth_m = depth_m_;
   training.weight = view.undistorter->seen();
-  if (!view.ignored.empty()) {
+  if (!view.ignored.empty() || !view.unmapped.empty()) {
     weight_.assign(training.weight.begin(), training.weight.end());
-    for (std::size_t pixel = 0; pixel < weight_.size(); ++pixel) {
-      if (view.ignored[pixel]) weight_[pixel] = 0.0F;
-    }
+    const std::vector<bool>* const masks[] = {&view.ignored, &view.unmapped};
+    leave_out(masks, weight_);
     training.weight = weight_;
   }
   if (!view.exposure_known) training.exposure_key = view.keyframe.value;

@@ -6,6 +6,7 @@
 #include "kernels/mapping/hole_fill.hpp"
 #include "kernels/mapping/moving.hpp"
 #include "kernels/mapping/optimiser.hpp"
+#include "kernels/mapping/plane_sweep.hpp"
 #include "kernels/mapping/seed.hpp"
 #include "kernels/mapping/seen_through.hpp"
 #include "kernels/mapping/view_pool.hpp"
@@ -27,6 +28,7 @@ namespace edgesplat::mapping {
   options.rates.log_scale = 2e-2F;
   options.rates.sh_base = 2e-2F;
   options.rates.opacity_logit = 6e-2F;
+  options.gap_factor = 0.1F;
   return options;
 }
 
@@ -40,11 +42,14 @@ namespace edgesplat::mapping {
 struct EngineOptions {
   SeedOptions seed;
   HoleFillOptions fill;
+  SweepOptions sweep;
   SeenThroughOptions seen_through;
   MovingOptions moving;
   OptimiserOptions optimiser = live_optimiser();
   ViewPoolOptions views;
   DensifyOptions densify = prune_only();
+  /// Pictures with more pixels are trained on at half, a third, ... of their size, 1000..1e9
+  std::size_t most_pixels = 350'000;
   int densify_every = 100;  ///< steps, 0 (never)..100000
   int steps_per_view =
       300;  ///< after so many a view on average, a map that gets no new one is at rest, 1..1000000
@@ -105,17 +110,20 @@ class MappingEngine {
         optimiser_(std::move(optimiser)),
         views_(options.views) {}
   Result<std::size_t> seed(const SeedInput& input);
-  /// How much of the view's pixels [H,W] these Gaussians fill; grows by what they do where it is not empty.
-  [[nodiscard]] Status draw_alpha(const StoredView& view, const gaussian::GaussianCloud& cloud,
-                                  std::vector<float>& alpha);
+  /// How much of the view's pixels [H,W] these Gaussians fill together with `others` (empty: nothing).
+  [[nodiscard]] Result<std::vector<float>> draw_alpha(const StoredView& view,
+                                                      const gaussian::GaussianCloud& cloud,
+                                                      std::span<const float> others);
   /// Compares the new view with the ones before it, both ways: hides what moves in all of them, removes the
   /// Gaussians that were made of it, and returns the points that stand still.
   Result<std::vector<map::ColouredPoint>> without_moving(const SeedInput& input, StoredView& view);
   /// What the view's LiDAR looks through goes, and its pixels in the pictures that showed it.
   Status forget_what_is_gone(const StoredView& view);
   Status remove_gone(std::span<const std::uint32_t> rows);
-  /// Seeds where the new view is still empty; `alpha`: what is filled by others, empty for nothing.
-  Result<std::size_t> fill(const StoredView& view, const SeedInput& seeded, std::vector<float> alpha);
+  /// Seeds where the new view is still empty; `others`: what is filled by others, empty for nothing.
+  Result<std::size_t> fill_floor(const StoredView& view, const SeedInput& seeded,
+                                 std::span<const float> others);
+  Result<std::size_t> fill_by_sweep(StoredView& view, const SeedInput& seeded, std::span<const float> others);
   [[nodiscard]] std::shared_ptr<const image::Undistorter> undistorter_of(const geometry::CameraModel& camera);
   [[nodiscard]] TrainingView prepare(const StoredView& view);
 

@@ -18,6 +18,25 @@ struct GroundPlane {
   double offset_m = 0.0;
 };
 
+/// How far away the floor is along rays of one camera. Immutable.
+class FloorDepth {
+ public:
+  FloorDepth(const GroundPlane& ground, const geometry::RigidTransform& map_from_camera)
+      : normal_in_camera_((map_from_camera.rotation.conjugate() * ground.normal).cast<float>()),
+        height_m_(static_cast<float>(ground.normal.dot(map_from_camera.translation_m) - ground.offset_m)) {}
+
+  /// Of the camera over the floor.
+  [[nodiscard]] float height_m() const { return height_m_; }
+  /// 1 over the depth at which the ray (z = 1) meets the floor; 0 or less where it never does.
+  [[nodiscard]] float inverse_depth(const Eigen::Vector3f& ray) const {
+    return -normal_in_camera_.dot(ray) / height_m_;
+  }
+
+ private:
+  Eigen::Vector3f normal_in_camera_;
+  float height_m_;
+};
+
 struct GroundOptions {
   double below_body_m = 0.15;   ///< the floor lies at least so far under the body's origin, 0..2
   double most_below_m = 3.0;    ///< and at most so far, 0.2..10

@@ -44,13 +44,9 @@ std::vector<map::ColouredPoint> fill_holes(const StoredView& view,
                                            const GroundPlane& ground, std::span<const float> alpha,
                                            const HoleFillOptions& options) {
   const geometry::CameraModel& camera = view.camera();
-  const Eigen::Vector3f normal_in_camera =
-      (view.map_from_camera.rotation.conjugate() * ground.normal).cast<float>();
-  // How far over the floor the camera is.
-  const auto height_m =
-      static_cast<float>(ground.normal.dot(view.map_from_camera.translation_m) - ground.offset_m);
+  const FloorDepth floor(ground, view.map_from_camera);
   std::vector<map::ColouredPoint> points;
-  if (!(height_m > 0.0F)) return points;
+  if (!(floor.height_m() > 0.0F)) return points;
   const geometry::RigidTransform body_from_camera = map_from_body.inverse() * view.map_from_camera;
   const Eigen::Matrix3f rotation = body_from_camera.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f translation = body_from_camera.translation_m.cast<float>();
@@ -62,12 +58,12 @@ std::vector<map::ColouredPoint> fill_holes(const StoredView& view,
                          static_cast<std::size_t>(x);
       if (alpha[pixel] > options.max_alpha || view.undistorter->seen()[pixel] == 0.0F) continue;
       if (!view.ignored.empty() && view.ignored[pixel]) continue;
+      if (!view.unmapped.empty() && view.unmapped[pixel]) continue;
       const Eigen::Vector3f ray(static_cast<float>((x - camera.cx_px) / camera.fx_px),
                                 static_cast<float>((y - camera.cy_px) / camera.fy_px), 1.0F);
-      const float fall = -normal_in_camera.dot(ray);  // towards the floor, a metre of depth
-      if (!(fall > 0.0F)) continue;
-      const float floor_m = height_m / fall;
-      const float depth_m = std::min(floor_m, above.at(x));
+      const float inverse_depth = floor.inverse_depth(ray);
+      if (!(inverse_depth > 0.0F)) continue;
+      const float depth_m = std::min(1.0F / inverse_depth, above.at(x));
       if (depth_m > options.max_depth_m) continue;
       map::ColouredPoint point;
       point.p_in_body_m = rotation * (depth_m * ray) + translation;

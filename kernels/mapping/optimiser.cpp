@@ -139,7 +139,7 @@ void Optimiser::size_pictures(const TrainingView& view) {
   pictures_.alpha.resize(pixels);
   const bool with_depth = !view.depth_m.empty() && options_.depth_factor > 0.0F;
   pictures_.by_depth_sum.resize(with_depth ? pixels : 0);
-  pictures_.by_alpha.resize(with_depth ? pixels : 0);
+  pictures_.by_alpha.assign(with_depth || options_.gap_factor > 0.0F ? pixels : 0, 0.0F);
 }
 
 void Optimiser::compare(const TrainingView& view, StepReport& report) {
@@ -151,11 +151,16 @@ void Optimiser::compare(const TrainingView& view, StepReport& report) {
   if (view.exposure_key) exposures_.learn(*view.exposure_key, p.colour, p.by_colour);
   report.l1 = colour.l1;
   report.loss = colour.value;
-  if (p.by_depth_sum.empty()) return;
-  report.depth_m =
-      train::depth_loss({p.depth_sum_m, p.alpha, view.depth_m, view.weight}, options_.depth_factor,
-                        options_.depth_min_alpha, p.by_depth_sum, p.by_alpha);
-  report.loss += static_cast<double>(options_.depth_factor) * report.depth_m;
+  if (!p.by_depth_sum.empty()) {
+    report.depth_m =
+        train::depth_loss({p.depth_sum_m, p.alpha, view.depth_m, view.weight}, options_.depth_factor,
+                          options_.depth_min_alpha, p.by_depth_sum, p.by_alpha);
+    report.loss += static_cast<double>(options_.depth_factor) * report.depth_m;
+  }
+  if (options_.gap_factor > 0.0F) {
+    report.loss += static_cast<double>(options_.gap_factor) *
+                   train::add_gap_loss(p.alpha, view.weight, options_.gap_factor, p.by_alpha);
+  }
 }
 
 void Optimiser::regularise(train::GaussianGradients& gradients, StepReport& report) const {

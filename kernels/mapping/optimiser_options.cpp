@@ -35,6 +35,7 @@ Status OptimiserOptions::validate() const {
       Range{"ssim_share", ssim_share, 0.0F, 1.0F},
       Range{"depth_factor", depth_factor, 0.0F, 10.0F},
       Range{"depth_min_alpha", depth_min_alpha, 0.05F, 1.0F},
+      Range{"gap_factor", gap_factor, 0.0F, 1.0F},
       Range{"opacity_factor", opacity_factor, 0.0F, 10.0F},
       Range{"scale_factor", scale_factor, 0.0F, 10.0F},
   };

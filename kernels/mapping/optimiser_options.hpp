@@ -25,8 +25,11 @@ struct OptimiserOptions {
   float ssim_share = 0.2F;       ///< of the colour loss, 0..1; 0 saves a third of the time
   float depth_factor = 0.1F;     ///< of the depth loss in metres beside the colour loss, 0 (off)..1
   float depth_min_alpha = 0.5F;  ///< pixels covered less say nothing about depth, 0.05..1
-  float opacity_factor = 0.0F;   ///< of the mean opacity of what a picture shows: thins the map out, 0..0.1
-  float scale_factor = 0.0F;     ///< of the mean scale (m) of what a picture shows, 0..0.1
+  /// Of the mean transparency of the pixels that count: a world without gaps, so that Gaussians do not grow
+  /// too bright for the black behind them, 0..1
+  float gap_factor = 0.0F;
+  float opacity_factor = 0.0F;  ///< of the mean opacity of what a picture shows: thins the map out, 0..0.1
+  float scale_factor = 0.0F;    ///< of the mean scale (m) of what a picture shows, 0..0.1
   std::size_t max_gaussians = 2'000'000;          ///< 1..2^31
   std::size_t max_bytes = std::size_t{4} << 30U;  ///< of parameters, moments and statistics
 

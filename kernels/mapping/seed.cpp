@@ -51,7 +51,8 @@ class NewCells {
       const Vector3f p_m = rotation * point.p_in_body_m + translation_m;
       const float range_m = point.p_in_body_m.norm();
       // Written so that NaN is out of range too.
-      if (!(range_m <= options_.max_range_m) || !(p_m.cwiseAbs().maxCoeff() < map::kMapLimit_m)) {
+      const bool near = range_m <= options_.max_range_m || input.spacing_rad > 0.0F;
+      if (!near || !std::isfinite(range_m) || !(p_m.cwiseAbs().maxCoeff() < map::kMapLimit_m)) {
         ++stats_.out_of_range;
         continue;
       }
@@ -154,6 +155,13 @@ void append(gaussian::GaussianCloud& cloud, const Vector3f& mean_m, const Shape&
   for (int k = 0; k < 4; ++k) cloud.quats_xyzw.push_back(shape.map_from_gaussian.coeffs()[k]);
 }
 
+/// A ball as wide as the pixels that it stands for.
+Shape ball_at(const Vector3f& p_m, const SeedInput& input, const SeedOptions& options) {
+  const float range_m = (p_m - input.map_from_body.translation_m.cast<float>()).norm();
+  return {Vector3f::Constant(
+      std::max(options.sigma_per_spacing * input.spacing_rad * range_m, options.min_sigma_m))};
+}
+
 }  // namespace
 
 void MapSeeder::cover(const gaussian::GaussianCloud& cloud) {
@@ -175,7 +183,9 @@ gaussian::GaussianCloud MapSeeder::seed(const SeedInput& input) {
   const float logit = std::log(options_.opacity / (1.0F - options_.opacity));
   for (const NewCell& cell : found.cells()) {
     const Vector3f mean_m = (cell.sum_m / static_cast<double>(cell.count)).cast<float>();
-    append(cloud, mean_m, shape_at(mean_m, coverage_.cell_m(cell.level), around, options_),
+    append(cloud, mean_m,
+           input.spacing_rad > 0.0F ? ball_at(mean_m, input, options_)
+                                    : shape_at(mean_m, coverage_.cell_m(cell.level), around, options_),
            cell.sum_rgb / cell.count);
     cloud.ids.push_back(ids_.next());
     cloud.opacity_logits.push_back(logit);

@@ -15,7 +15,7 @@ namespace edgesplat::mapping {
 
 struct SeedOptions {
   CoverageOptions coverage;
-  float max_range_m = 60.0F;       ///< farther points are left out, 1..500
+  float max_range_m = 60.0F;       ///< farther measured points are left out, 1..500
   float opacity = 0.9F;            ///< of a new Gaussian, 0.05..0.99
   float sigma_per_spacing = 1.0F;  ///< size of a Gaussian over the distance to its neighbours, 0.2..2
   float min_sigma_m = 0.01F;       ///< 0.001..0.1
@@ -32,6 +32,9 @@ struct SeedInput {
   /// The rig has a camera: points without colour are left out and may be seeded when they get one. Otherwise
   /// they are grey.
   bool has_camera = true;
+  /// Of points made from a picture's pixels: the angle between neighbours, which gives their size at any
+  /// range; 0: measured points, whose size is that of the gaps between them.
+  float spacing_rad = 0.0F;
 };
 
 struct SeedStats {

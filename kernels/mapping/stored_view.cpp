@@ -37,7 +37,7 @@ std::vector<SparseDepth> project_depths(std::span<const map::ColouredPoint> poin
   return depths;
 }
 
-void ignore_above_measured(int margin_px, StoredView& view) {
+std::vector<bool> above_measured(int margin_px, const StoredView& view) {
   constexpr std::uint32_t kStretch_px = 8;
   const auto width = static_cast<std::uint32_t>(view.camera().width_px);
   const auto height = static_cast<std::uint32_t>(view.camera().height_px);
@@ -47,23 +47,25 @@ void ignore_above_measured(int margin_px, StoredView& view) {
     std::uint32_t& row = highest[d.pixel % width / kStretch_px];
     row = std::min(row, d.pixel / width);
   }
+  std::vector<bool> above;
   for (std::uint32_t x = 0; x < width; ++x) {
     const std::uint32_t stretch = x / kStretch_px;
     const auto first = highest.begin() + (stretch > 2 ? stretch - 2 : 0);
     const std::uint32_t top = *std::min_element(first, highest.begin() + std::min(stretches, stretch + 3));
-    if (top == height) continue;
-    if (view.ignored.empty()) view.ignored.resize(std::size_t{width} * height, false);
+    if (top == height || top <= static_cast<std::uint32_t>(margin_px)) continue;
+    if (above.empty()) above.resize(std::size_t{width} * height, false);
     for (std::uint32_t y = 0; y + static_cast<std::uint32_t>(margin_px) < top; ++y) {
-      view.ignored[std::size_t{y} * width + x] = true;
+      above[std::size_t{y} * width + x] = true;
     }
   }
+  return above;
 }
 
 Result<StoredView> make_view(const map::Keyframe& keyframe, const geometry::RigidTransform& map_from_body,
                              const sensor::ImageRgb8& picture,
                              std::shared_ptr<const image::Undistorter> undistorter) {
   const geometry::CameraModel& model = undistorter->model();
-  if (picture.width_px != model.width_px || picture.height_px != model.height_px) {
+  if (!undistorter->fits(picture)) {
     return fail(Errc::kInvalidArgument,
                 "keyframe " + std::to_string(keyframe.id.value) + "'s picture is not of its camera's size");
   }
@@ -75,7 +77,7 @@ Result<StoredView> make_view(const map::Keyframe& keyframe, const geometry::Rigi
   view.picture = undistorter->apply(picture);
   view.depths = project_depths(keyframe.points_in_body, keyframe.camera->body_from_camera.inverse(), model);
   view.undistorter = std::move(undistorter);
-  ignore_above_measured(kSkyMargin_px, view);
+  view.unmapped = above_measured(kSkyMargin_px, view);
   return view;
 }
 

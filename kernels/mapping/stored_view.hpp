@@ -29,8 +29,11 @@ struct StoredView {
   geometry::RigidTransform map_from_camera;
   std::shared_ptr<const image::Undistorter> undistorter;  ///< shared by all views of one camera
   sensor::ImageRgb8 picture;
-  bool exposure_known = false;      ///< the picture has the brightness of all others
-  std::vector<bool> ignored;        ///< [H,W] pixels not to train on; empty: all count
+  bool exposure_known = false;  ///< the picture has the brightness of all others
+  std::vector<bool> ignored;    ///< [H,W] pixels not to train on: something moves there; empty: none
+  /// [H,W] pixels over the LiDAR's sight that the map has nothing for: training would draw the wrong
+  /// Gaussians over them; empty: none
+  std::vector<bool> unmapped;
   std::vector<SparseDepth> depths;  ///< in the order of the pixels, one a pixel: the nearest
 
   [[nodiscard]] const geometry::CameraModel& camera() const { return undistorter->model(); }
@@ -44,13 +47,13 @@ struct StoredView {
                                                       const geometry::RigidTransform& camera_from_body,
                                                       const geometry::CameraModel& pinhole);
 
-/// Ignores what lies over the highest measurement of each stretch of columns (8 px, and two to each side),
-/// with `margin_px` to spare: the sky and whatever rises out of the LiDAR's sight. Without a Gaussian there,
-/// training would draw the wrong ones over it. Columns without a measurement count fully.
-void ignore_above_measured(int margin_px, StoredView& view);
+/// [H,W] what lies over the highest measurement of each stretch of columns (8 px, and two to each side), with
+/// `margin_px` to spare: the sky and whatever rises out of the LiDAR's sight. Columns without a measurement
+/// have nothing above it. Empty where no pixel has.
+[[nodiscard]] std::vector<bool> above_measured(int margin_px, const StoredView& view);
 
-/// `picture`: the keyframe's, decoded, of the camera's size, else kInvalidArgument. The keyframe must have a
-/// camera.
+/// `picture`: the keyframe's, decoded; kInvalidArgument unless it fits the undistorter. The keyframe must
+/// have a camera. What lies over the LiDAR's sight is unmapped.
 [[nodiscard]] Result<StoredView> make_view(const map::Keyframe& keyframe,
                                            const geometry::RigidTransform& map_from_body,
                                            const sensor::ImageRgb8& picture,

@@ -35,6 +35,10 @@ void describe_optimise(ConfigReader& reader, OptimiseConfig& optimise) {
   reader.field("keep_seeds", engine.keep_seeds, "also keep maps as they were seeded, to compare with");
   reader.field("fill_holes", engine.fill.enabled,
                "seed the floor and feet of walls where only the camera looks");
+  reader.field("fill_by_sweep", engine.sweep.enabled,
+               "seed what only the camera sees, as far away as the pictures tell");
+  reader.field("most_pixels", engine.most_pixels, Range<std::size_t>{1000, 1'000'000'000},
+               "larger pictures are trained on at half, a third, ... of their size");
   reader.field("forget_seen_through", engine.seen_through.enabled,
                "remove what the LiDAR measures something behind");
   reader.field("hide_moving", engine.moving.enabled,
@@ -52,6 +56,8 @@ void describe_optimise(ConfigReader& reader, OptimiseConfig& optimise) {
   reader.field("ssim_share", optimiser.ssim_share, Range{0.0, 1.0}, "of the colour loss");
   reader.field("depth_factor", optimiser.depth_factor, Range{0.0, 1.0},
                "of the depth loss beside the colour loss");
+  reader.field("gap_factor", optimiser.gap_factor, Range{0.0, 1.0},
+               "of the mean transparency of the pixels in the loss");
   reader.field("opacity_factor", optimiser.opacity_factor, Range{0.0, 0.1},
                "of the mean opacity in the loss");
   reader.field("scale_factor", optimiser.scale_factor, Range{0.0, 0.1}, "of the mean size in the loss");

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 // What a number of optimisation steps a keyframe makes of a map, without clocks and links: the same figures
-// on every machine. usage: map_quality RECORDING.mcap OUT STEPS_PER_KEYFRAME [SERVER_KEY=VALUE...]
+// on every machine. usage: map_quality RECORDING OUT STEPS_PER_KEYFRAME [SERVER_KEY=VALUE |
+// robot:KEY=VALUE]...
 #include "common/config/config_file.hpp"
 #include "common/io/ply_gaussians.hpp"
 #include "robot/app/replay_input.hpp"
@@ -21,22 +22,33 @@ namespace {
 
 using namespace edgesplat;
 
-Result<config::ServerConfig> server_config(int argc, char** argv) {
-  config::ConfigFile file;
-  for (int i = 4; i < argc; ++i) EDGESPLAT_TRY_STATUS(file.apply_override(argv[i]));
+struct Settings {
   config::ServerConfig server;
-  EDGESPLAT_TRY_STATUS(file.read_into(server));
-  server.optimise.engine.keep_seeds = true;
-  return server;
+  robot_config::RobotConfig robot;
+};
+
+Result<Settings> read_settings(int argc, char** argv) {
+  constexpr std::string_view kRobot = "robot:";
+  config::ConfigFile server, robot;
+  for (int i = 4; i < argc; ++i) {
+    const std::string_view setting = argv[i];
+    EDGESPLAT_TRY_STATUS(setting.starts_with(kRobot) ? robot.apply_override(setting.substr(kRobot.size()))
+                                                     : server.apply_override(setting));
+  }
+  Settings settings;
+  EDGESPLAT_TRY_STATUS(server.read_into(settings.server));
+  EDGESPLAT_TRY_STATUS(robot.read_into(settings.robot));
+  settings.server.optimise.engine.keep_seeds = true;
+  return settings;
 }
 
 Status run(int argc, char** argv) {
   const std::filesystem::path out = argv[2];
   const int steps_per_keyframe = std::atoi(argv[3]);
-  EDGESPLAT_TRY(const config::ServerConfig server, server_config(argc, argv));
+  EDGESPLAT_TRY(const Settings settings, read_settings(argc, argv));
+  const auto& [server, robot] = settings;
   EDGESPLAT_TRY(replay::ReplaySource recording, replay::ReplaySource::open(argv[1]));
   const sensor::Rig rig = recording.rig();
-  const robot_config::RobotConfig robot;
   EDGESPLAT_TRY(const app::RunFolder folder, app::RunFolder::create(out, robot, rig));
   const SteadyClock clock;
   metrics::Registry metrics;
@@ -67,7 +79,7 @@ Status run(int argc, char** argv) {
   EDGESPLAT_TRY_STATUS(io::write_gaussians_ply(out / "server" / "seeded.ply", builder->engine().seeds()));
   desk::ScoreOptions scoring;
   scoring.run = out;
-  scoring.input = argv[1];
+  if (!std::filesystem::is_directory(argv[1])) scoring.input = argv[1];
   EDGESPLAT_TRY(const nlohmann::json scores, desk::score_run(scoring));
   std::printf(
       "%llu steps, %.1f ms each, %zu Gaussians (%zu seeded, %llu gone): PSNR %.2f dB, SSIM %.3f, seeded %.2f "
@@ -87,7 +99,9 @@ Status run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (argc < 4) {
-    std::fprintf(stderr, "usage: map_quality RECORDING.mcap OUT STEPS_PER_KEYFRAME [SERVER_KEY=VALUE...]\n");
+    std::fprintf(
+        stderr,
+        "usage: map_quality RECORDING OUT STEPS_PER_KEYFRAME [SERVER_KEY=VALUE | robot:KEY=VALUE]...\n");
     return 2;
   }
   const Status status = run(argc, argv);

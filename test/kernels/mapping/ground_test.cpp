@@ -47,6 +47,20 @@ TEST(FindGround, FollowsARampSomewhat) {
   EXPECT_NEAR(-ground->normal.x() / ground->normal.z(), slope, 0.02);
 }
 
+TEST(FloorDepth, IsWhereARayMeetsTheFloor) {
+  geometry::RigidTransform map_from_camera;  // 1.5 m over the floor, looking along x
+  map_from_camera.translation_m = {3.0, 4.0, 2.0};
+  Eigen::Matrix3d axes;
+  axes << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  map_from_camera.rotation = Eigen::Quaterniond(axes);
+  const FloorDepth floor({Eigen::Vector3d::UnitZ(), 0.5}, map_from_camera);
+  EXPECT_NEAR(floor.height_m(), 1.5F, 1e-6F);
+  EXPECT_NEAR(1.0F / floor.inverse_depth({0.0F, 0.1F, 1.0F}), 15.0F, 1e-4F);
+  EXPECT_NEAR(1.0F / floor.inverse_depth({7.0F, 0.5F, 1.0F}), 3.0F, 1e-5F) << "sideways it is as far";
+  EXPECT_EQ(floor.inverse_depth({0.0F, 0.0F, 1.0F}), 0.0F) << "the horizon";
+  EXPECT_LT(floor.inverse_depth({0.0F, -0.2F, 1.0F}), 0.0F) << "the sky";
+}
+
 TEST(FindGround, FindsNoneWhereNothingLiesBelow) {
   EXPECT_FALSE(find_ground({}, {}, {}));
   EXPECT_FALSE(find_ground(floor_and_wall(0.0, 0.6, 30, 0), {}, {})) << "too few points";

@@ -101,6 +101,22 @@ TEST_F(SeedTest, FarSurfacesGetFewerAndLargerGaussians) {
   EXPECT_GT(seeder_.seed(input_of(far)).size(), near_cloud.size() / 2);
 }
 
+TEST_F(SeedTest, PointsOfPixelsAreAsWideAsTheirPixelsHoweverFarAway) {
+  map::ColouredPoint points[2];
+  points[0].p_in_body_m = {20.0F, 0.0F, 0.0F};
+  points[1].p_in_body_m = {0.0F, 100.0F, 0.0F};  // beyond what is measured
+  for (auto& point : points) point.has_colour = true;
+  SeedInput input;
+  input.points_in_body = points;
+  input.map_from_body.translation_m = {10.0, 20.0, 30.0};
+  input.spacing_rad = 0.01F;
+  const auto cloud = seeder_.seed(input);
+  ASSERT_EQ(cloud.size(), 2U);
+  EXPECT_NEAR(std::exp(cloud.log_scales[0]), options_.sigma_per_spacing * 0.2F, 1e-4F);
+  EXPECT_NEAR(std::exp(cloud.log_scales[3]), options_.sigma_per_spacing * 1.0F, 1e-4F);
+  EXPECT_EQ(seeder_.stats().out_of_range, 0U);
+}
+
 TEST_F(SeedTest, UncolouredPointsWaitForTheirColour) {
   auto keyframe = test::wall_keyframe(1, 5000);
   for (auto& point : keyframe.points_in_body) point.has_colour = false;

@@ -39,20 +39,21 @@ TEST(ProjectDepths, LeavesOutWhatThePictureDoesNotShow) {
   EXPECT_TRUE(project_depths(points, {}, camera()).empty());
 }
 
-TEST(IgnoreAboveMeasured, LeavesOutTheSkyAndKeepsColumnsThatNothingIsKnownOf) {
+TEST(AboveMeasured, IsTheSkyButNotColumnsThatNothingIsKnownOf) {
   StoredView view;
   view.undistorter = std::make_shared<image::Undistorter>(camera());
   view.depths = {{20 * 64 + 3, 5.0F}, {30 * 64 + 5, 4.0F}, {12 * 64 + 30, 6.0F}};
-  ignore_above_measured(4, view);
-  ASSERT_EQ(view.ignored.size(), 64U * 48U);
-  const auto ignored = [&](std::size_t x, std::size_t y) { return view.ignored[y * 64 + x]; };
-  EXPECT_TRUE(ignored(3, 15));
-  EXPECT_FALSE(ignored(3, 16)) << "the margin";
-  EXPECT_FALSE(ignored(3, 40));
-  EXPECT_TRUE(ignored(30, 7));
-  EXPECT_FALSE(ignored(30, 8));
-  EXPECT_FALSE(ignored(20, 9)) << "a neighbouring stretch is measured as high as that";
-  EXPECT_FALSE(ignored(63, 0)) << "nothing is known there";
+  EXPECT_TRUE(above_measured(30, view).empty()) << "no pixel is so far above";
+  const std::vector<bool> is_above = above_measured(4, view);
+  ASSERT_EQ(is_above.size(), 64U * 48U);
+  const auto above = [&](std::size_t x, std::size_t y) { return is_above[y * 64 + x]; };
+  EXPECT_TRUE(above(3, 15));
+  EXPECT_FALSE(above(3, 16)) << "the margin";
+  EXPECT_FALSE(above(3, 40));
+  EXPECT_TRUE(above(30, 7));
+  EXPECT_FALSE(above(30, 8));
+  EXPECT_FALSE(above(20, 9)) << "a neighbouring stretch is measured as high as that";
+  EXPECT_FALSE(above(63, 0)) << "nothing is known there";
 }
 
 TEST(MakeView, RefusesAPictureOfAnotherSize) {
