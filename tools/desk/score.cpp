@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -96,22 +97,37 @@ Result<quality::HeldOutScores> score_against_world(const ScoreOptions& options, 
   input.lpips = lpips;
   input.truth = [&](const quality::HeldOutView& view) -> Result<quality::HeldOutTruth> {
     return quality::HeldOutTruth{
-        simulate::clean_picture(*world, input.keyframes.front().camera, view.world_from_camera), camera.seen};
+        simulate::clean_picture(*world, input.keyframes.front().camera, view.world_from_camera),
+        camera.seen,
+        {}};
   };
   return quality::score_held_out(input, options.run / "heldout");
+}
+
+/// Fewer pixels, as a share of the picture, say too little.
+constexpr double kLeastShare = 0.01;
+
+double share_of(const std::vector<float>& weight) {
+  return std::accumulate(weight.begin(), weight.end(), 0.0) / static_cast<double>(weight.size());
 }
 
 /// `mask` may be null: then every pixel counts that the camera saw.
 Result<quality::HeldOutTruth> truth_of_picture(const std::filesystem::path& path, const ScoredCamera& camera,
                                                quality::StaticMask* mask) {
-  quality::HeldOutTruth truth{{}, camera.seen};
+  quality::HeldOutTruth truth{{}, camera.seen, {}};
   EDGESPLAT_TRY(truth.picture, io::load_rgb8(path));
   if (truth.picture.values.size() != 3 * truth.weight.size()) {
     return fail(Errc::kCorrupt, path.string() + " does not have the size of the camera in rig.toml");
   }
   if (mask == nullptr) return truth;
-  EDGESPLAT_TRY(const std::vector<float> stays, mask->weight(truth.picture));
-  for (std::size_t i = 0; i < stays.size(); ++i) truth.weight[i] *= stays[i];
+  EDGESPLAT_TRY(const quality::StaticWeights stays, mask->weights(truth.picture));
+  truth.weight_with_shadows = camera.seen;
+  for (std::size_t i = 0; i < camera.seen.size(); ++i) {
+    truth.weight[i] *= stays.without_shadows[i];
+    truth.weight_with_shadows[i] *= stays.without_movers[i];
+  }
+  // Where movers fill the picture nothing may be left.
+  if (share_of(truth.weight) < kLeastShare) truth.weight = truth.weight_with_shadows;
   return truth;
 }
 

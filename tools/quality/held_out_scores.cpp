@@ -66,6 +66,15 @@ Result<HeldOutScore> score_one(const HeldOutInput& input, const HeldOutView& vie
   EDGESPLAT_TRY(const sensor::ImageRgb8 nearest, io::load_rgb8(input.keyframes[view.nearest_keyframe].image));
   EDGESPLAT_TRY_STATUS(io::save_image(file("nearest"), nearest));
   EDGESPLAT_TRY(score.nearest, against_truth(nearest));
+  if (!truth.weight_with_shadows.empty()) {
+    const auto psnr_db = [&](const sensor::ImageRgb8& picture) -> Result<double> {
+      EDGESPLAT_TRY(const PictureScore shadowed,
+                    score_picture(picture, truth.picture, truth.weight_with_shadows, nullptr));
+      return shadowed.psnr_db;
+    };
+    EDGESPLAT_TRY(score.psnr_with_shadows_db, psnr_db(map));
+    EDGESPLAT_TRY(score.psnr_nearest_with_shadows_db, psnr_db(nearest));
+  }
   return score;
 }
 
@@ -119,6 +128,9 @@ nlohmann::json to_json(const HeldOutScores& scores) {
       {"psnr_seeded_db",
        mean(all, [](const auto& score) { return score.seeded ? Mean(score.seeded->psnr_db) : Mean(); })},
       {"psnr_nearest_db", mean(all, [](const auto& score) { return Mean(score.nearest.psnr_db); })},
+      {"psnr_with_shadows_db", mean(all, [](const auto& score) { return score.psnr_with_shadows_db; })},
+      {"psnr_nearest_with_shadows_db",
+       mean(all, [](const auto& score) { return score.psnr_nearest_with_shadows_db; })},
       {"views", nlohmann::json::array()}};
   for (const HeldOutScore& score : all) json["views"].push_back(to_json(score));
   return json;

@@ -29,6 +29,8 @@ struct HeldOutScore {
   PictureScore map;
   std::optional<PictureScore> seeded;  ///< the same map before any optimisation
   PictureScore nearest;                ///< the nearest keyframe's picture in its place
+  /// With the shadows of movers counting too; of pictures whose movers are masked.
+  std::optional<double> psnr_with_shadows_db, psnr_nearest_with_shadows_db;
   std::string stem;  ///< of its pictures: STEM_target.png, _map.png, _seeded.png, _nearest.png, _weight.png
 };
 
@@ -42,6 +44,8 @@ struct HeldOutScores {
 struct HeldOutTruth {
   sensor::ImageRgb8 picture;
   std::vector<float> weight;  ///< [H,W] 0..1, how much each pixel counts; empty: all of them
+  /// The same with the shadows of movers counting too; empty: not asked for.
+  std::vector<float> weight_with_shadows;
 };
 
 /// What is compared.
@@ -64,7 +68,8 @@ struct HeldOutInput {
                                                    const std::filesystem::path& folder);
 
 /// {"kind": "simulated" or "real", "movers_masked", "views": [...], "static_share", "psnr_db", "ssim",
-/// "lpips", "psnr_seeded_db", "psnr_nearest_db": means; null where there is none}
+/// "lpips", "psnr_seeded_db", "psnr_nearest_db", "psnr_with_shadows_db", "psnr_nearest_with_shadows_db":
+/// means; null where there is none}
 [[nodiscard]] nlohmann::json to_json(const HeldOutScores& scores);
 
 }  // namespace edgesplat::quality

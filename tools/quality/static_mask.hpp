@@ -11,9 +11,17 @@
 
 namespace edgesplat::quality {
 
-/// Which pixels of a street's picture count when a map of what stays is judged: all but persons, riders and
-/// vehicles, parked ones too, by ESPNetv2 (Mehta 2019, s = 2.0, trained on Cityscapes). Deterministic.
-/// Single-owner. A picture of any size takes some 0.3 s.
+/// [H,W] 1 where a pixel counts, 0 where it does not.
+struct StaticWeights {
+  std::vector<float> without_movers;  ///< all but what can move, parked too, and 5 px around it
+  /// ... nor the road and other ground in a square around each region of one class that makes its larger
+  /// extent 1.3 times as large (Semantic Gaussian Filter): most shadows fall there, and they move too.
+  std::vector<float> without_shadows;
+};
+
+/// Which pixels of a street's picture count when a map of what stays is judged: not those of persons, riders
+/// and vehicles, by ESPNetv2 (Mehta 2019, s = 2.0, trained on Cityscapes). Deterministic. Single-owner. A
+/// picture of any size takes some 0.3 s.
 class StaticMask {
  public:
   /// Reads espnetv2_s2_city_384x640.onnx. kNotFound, or kCorrupt where it is not that network.
@@ -24,9 +32,8 @@ class StaticMask {
   StaticMask& operator=(const StaticMask&) = delete;
   ~StaticMask();
 
-  /// [H,W] 1 where the picture shows what stays, 0 where it shows what can move and close around that.
   /// kInvalidArgument for an empty picture.
-  [[nodiscard]] Result<std::vector<float>> weight(const sensor::ImageRgb8& picture);
+  [[nodiscard]] Result<StaticWeights> weights(const sensor::ImageRgb8& picture);
 
  private:
   struct Network;

@@ -47,6 +47,16 @@ std::string in_blocks(const nlohmann::json& views) {
   return fmt::format(" in {} {}", blocks.size(), blocks.size() == 1 ? "block" : "blocks");
 }
 
+/// What the figures are where shadows of movers count too, which no map without movers can show.
+std::string with_shadows(const nlohmann::json& held_out) {
+  if (!number_of(held_out, "psnr_with_shadows_db")) return "";
+  return fmt::format(
+      " What can move does not count, nor the ground close to it, for its shadow; with the shadows counting: "
+      "map "
+      "{}, nearest training picture {}.",
+      decibels(held_out, "psnr_with_shadows_db"), decibels(held_out, "psnr_nearest_with_shadows_db"));
+}
+
 std::string words_of(const nlohmann::json& held_out) {
   const auto& views = held_out["views"];
   const std::string map = decibels(held_out, "psnr_db"), nearest = decibels(held_out, "psnr_nearest_db");
@@ -58,12 +68,13 @@ std::string words_of(const nlohmann::json& held_out) {
   }
   const bool masked = held_out.contains("movers_masked") && held_out["movers_masked"] == true;
   return fmt::format(
-      "{} pictures held out of mapping{}, from the poses at which they were tracked. Mean PSNR "
-      "over {}: map {}, nearest training picture {}.",
-      views.size(), in_blocks(views),
-      masked ? "the " + percent(held_out, "static_share") + " static pixels"
-             : "all pixels, movers included for want of a segmentation model",
-      map, nearest);
+             "{} pictures held out of mapping{}, from the poses at which they were tracked. Mean PSNR "
+             "over {}: map {}, nearest training picture {}.",
+             views.size(), in_blocks(views),
+             masked ? "the " + percent(held_out, "static_share") + " static pixels"
+                    : "all pixels, movers included for want of a segmentation model",
+             map, nearest) +
+         with_shadows(held_out);
 }
 
 std::string row_of(const nlohmann::json& view, bool real, const std::filesystem::path& folder,

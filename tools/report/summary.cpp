@@ -149,7 +149,6 @@ nlohmann::json to_json(const Summary& s, const std::vector<Reference>& reference
                          {"static_share", or_null(s.static_share)},
                          {"psnr_seeded_db", or_null(s.psnr_seeded_db)},
                          {"psnr_nearest_db", or_null(s.psnr_nearest_db)},
-                         {"psnr_nearest_db", or_null(s.psnr_nearest_db)},
                          {"render_fps_p50", or_null(s.render_fps_p50)},
                          {"render_ms_p95", or_null(s.render_ms_p95)},
                          {"render_psnr_db", or_null(s.render_psnr_db)},

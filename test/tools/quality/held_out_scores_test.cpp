@@ -97,6 +97,19 @@ TEST_F(HeldOutScoresTest, WhatHasNoWeightDoesNotCount) {
   EXPECT_LT(score()["psnr_db"].get<double>(), 20.0);
 }
 
+TEST_F(HeldOutScoresTest, ShadowsOfMoversAreScoredApart) {
+  EXPECT_TRUE(score()["psnr_with_shadows_db"].is_null());
+  count_the_right_only();
+  truth_.weight_with_shadows.assign(96 * 64, 1.0F);
+  for (int y = 0; y < 64; ++y) {  // a shadow where only the second weights look
+    for (int x = 0; x < 32; ++x) truth_.picture.pixel(x, y)[1] = 0;
+  }
+  const nlohmann::json json = score();
+  EXPECT_EQ(json["psnr_db"], 100.0);
+  EXPECT_LT(json["psnr_with_shadows_db"].get<double>(), 40.0);
+  EXPECT_LT(json["psnr_nearest_with_shadows_db"].get<double>(), json["psnr_nearest_db"].get<double>());
+}
+
 TEST_F(HeldOutScoresTest, ARealRunShowsItsWeights) {
   count_the_right_only();
   input_.kind = HeldOutKind::kReal;

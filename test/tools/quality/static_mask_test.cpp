@@ -43,8 +43,9 @@ TEST(StaticMask, CarsAndLorriesDoNotCountAndSkyRoadAndTreesDo) {
   ASSERT_TRUE(picture) << picture.error().context;
   auto mask = StaticMask::load(kModel);
   ASSERT_TRUE(mask) << mask.error().context;
-  const auto weight = mask->weight(*picture);
-  ASSERT_TRUE(weight) << weight.error().context;
+  const auto weights = mask->weights(*picture);
+  ASSERT_TRUE(weights) << weights.error().context;
+  const std::vector<float>* weight = &weights->without_movers;
   ASSERT_EQ(weight->size(), picture->values.size() / 3);
   for (const Place place : kMovers) EXPECT_EQ(at(*weight, *picture, place), 0.0F) << place.x_px;
   for (const Place place : kStatic) EXPECT_EQ(at(*weight, *picture, place), 1.0F) << place.x_px;
@@ -52,20 +53,39 @@ TEST(StaticMask, CarsAndLorriesDoNotCountAndSkyRoadAndTreesDo) {
   // What onnxruntime and OpenCV's Python module make of the same network, resizing and margin.
   EXPECT_NEAR(share(*weight), 0.461, 0.005);
 
-  EXPECT_EQ(*mask->weight(*picture), *weight);
+  EXPECT_EQ(mask->weights(*picture)->without_movers, *weight);
   auto again = StaticMask::load(kModel);
   ASSERT_TRUE(again);
-  EXPECT_EQ(*again->weight(*picture), *weight);
+  EXPECT_EQ(again->weights(*picture)->without_movers, *weight);
+}
+
+TEST(StaticMask, ShadowsAreTheGroundCloseToMoversAndNothingElse) {
+  if (!std::filesystem::exists(kModel)) GTEST_SKIP() << kModel << " is absent";
+  if (!std::filesystem::exists(kStreet)) GTEST_SKIP() << kStreet << " is absent";
+  const auto picture = io::load_rgb8(kStreet);
+  auto mask = StaticMask::load(kModel);
+  ASSERT_TRUE(picture && mask);
+  const auto weights = mask->weights(*picture);
+  ASSERT_TRUE(weights) << weights.error().context;
+  for (std::size_t i = 0; i < weights->without_movers.size(); ++i)
+    ASSERT_LE(weights->without_shadows[i], weights->without_movers[i]);
+  // The shadow at the feet of the car ahead counts with shadows, and not without.
+  constexpr Place kShadow = {540, 305};
+  EXPECT_EQ(at(weights->without_movers, *picture, kShadow), 1.0F);
+  EXPECT_EQ(at(weights->without_shadows, *picture, kShadow), 0.0F);
+  constexpr Place kSkyOverTheLorry = {840, 12};
+  EXPECT_EQ(at(weights->without_shadows, *picture, kSkyOverTheLorry), 1.0F);
+  EXPECT_GT(share(weights->without_shadows), 0.25);
 }
 
 TEST(StaticMask, TakesPicturesOfAnySize) {
   if (!std::filesystem::exists(kModel)) GTEST_SKIP() << kModel << " is absent";
   auto mask = StaticMask::load(kModel);
   ASSERT_TRUE(mask) << mask.error().context;
-  EXPECT_EQ(mask->weight({1, 1})->size(), 1U);
-  EXPECT_EQ(mask->weight({640, 384})->size(), 640U * 384U);
-  EXPECT_EQ(mask->weight({40, 900})->size(), 40U * 900U);
-  EXPECT_EQ(mask->weight({}).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(mask->weights({1, 1})->without_movers.size(), 1U);
+  EXPECT_EQ(mask->weights({640, 384})->without_shadows.size(), 640U * 384U);
+  EXPECT_EQ(mask->weights({40, 900})->without_movers.size(), 40U * 900U);
+  EXPECT_EQ(mask->weights({}).error().code, Errc::kInvalidArgument);
 }
 
 TEST(StaticMask, AMissingNetworkIsNotFoundAndDamageIsSaid) {
