@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <optional>
 #include <string>
 
 namespace edgesplat::app {
@@ -24,19 +25,18 @@ nlohmann::json pose_json(const geometry::RigidTransform& b_from_a) {
   return {{"translation_m", {t.x(), t.y(), t.z()}}, {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
-std::string describe(const map::Keyframe& keyframe, const geometry::CameraModel& pinhole,
-                     const geometry::RigidTransform& map_from_camera) {
-  return nlohmann::json{{"keyframe", keyframe.id.value},
-                        {"stamp_ns", to_ns(keyframe.stamp)},
-                        {"map_from_camera", pose_json(map_from_camera)},
-                        {"camera",
-                         {{"width_px", pinhole.width_px},
-                          {"height_px", pinhole.height_px},
-                          {"fx_px", pinhole.fx_px},
-                          {"fy_px", pinhole.fy_px},
-                          {"cx_px", pinhole.cx_px},
-                          {"cy_px", pinhole.cy_px}}}}
-      .dump(1);
+nlohmann::json describe(const map::Keyframe& keyframe, const geometry::CameraModel& pinhole,
+                        const geometry::RigidTransform& map_from_camera) {
+  return {{"keyframe", keyframe.id.value},
+          {"stamp_ns", to_ns(keyframe.stamp)},
+          {"map_from_camera", pose_json(map_from_camera)},
+          {"camera",
+           {{"width_px", pinhole.width_px},
+            {"height_px", pinhole.height_px},
+            {"fx_px", pinhole.fx_px},
+            {"fy_px", pinhole.fy_px},
+            {"cx_px", pinhole.cx_px},
+            {"cy_px", pinhole.cy_px}}}};
 }
 
 geometry::RigidTransform map_from_camera(const map::Keyframe& keyframe,
@@ -50,14 +50,15 @@ std::string number_name(std::size_t number) {
   return name;
 }
 
-/// Writes `stem`.jpg and .json. The camera is the same all the run.
+/// Writes `stem`.jpg and .json. The camera is the same all the run. `block`: of a picture held out.
 Status write_picture(const map::Keyframe& keyframe, const image::Undistorter& undistorter,
-                     const std::filesystem::path& stem, const geometry::RigidTransform& map_from_odom) {
+                     const std::filesystem::path& stem, const geometry::RigidTransform& map_from_odom,
+                     std::optional<int> block = {}) {
   EDGESPLAT_TRY(const sensor::ImageRgb8 picture, io::decode_rgb8(keyframe.image->bytes));
   EDGESPLAT_TRY_STATUS(io::save_image(stem.string() + ".jpg", undistorter.apply(picture)));
-  return io::write_file_atomically(
-      stem.string() + ".json",
-      describe(keyframe, undistorter.model(), map_from_camera(keyframe, map_from_odom)));
+  nlohmann::json words = describe(keyframe, undistorter.model(), map_from_camera(keyframe, map_from_odom));
+  if (block) words["block"] = *block;
+  return io::write_file_atomically(stem.string() + ".json", words.dump(1));
 }
 
 Status write_overlay_and_render(const map::Keyframe& keyframe, const geometry::CameraModel& pinhole,
@@ -87,8 +88,8 @@ void KeyframeAlbum::add(std::shared_ptr<const map::Keyframe> keyframe) {
   whole_.add(std::move(keyframe));
 }
 
-void KeyframeAlbum::add_held_out(std::shared_ptr<const map::Keyframe> held_out) {
-  if (held_out->image && held_out->camera) held_out_.add(std::move(held_out));
+void KeyframeAlbum::add_held_out(std::shared_ptr<const map::Keyframe> held_out, int block) {
+  if (held_out->image && held_out->camera) held_out_.add({std::move(held_out), block});
 }
 
 Status KeyframeAlbum::write(const std::filesystem::path& folder, const gaussian::GaussianCloud& cloud,
@@ -105,8 +106,9 @@ Status KeyframeAlbum::write(const std::filesystem::path& folder, const gaussian:
         *keyframe, undistorter, folder / "keyframes" / number_name(keyframe->id.value), map_from_odom));
   }
   for (std::size_t i = 0; i < held_out_.kept().size(); ++i) {
+    const auto& [picture, block] = held_out_.kept()[i];
     EDGESPLAT_TRY_STATUS(
-        write_picture(*held_out_.kept()[i], undistorter, folder / "heldout" / number_name(i), map_from_odom));
+        write_picture(*picture, undistorter, folder / "heldout" / number_name(i), map_from_odom, block));
   }
   for (const auto& keyframe : whole_.kept()) {
     EDGESPLAT_TRY_STATUS(

@@ -19,8 +19,8 @@ class KeyframeAlbum {
   explicit KeyframeAlbum(std::size_t max_keyframes) : whole_(max_keyframes) {}
 
   void add(std::shared_ptr<const map::Keyframe> keyframe);
-  /// A picture that the map did not get (up to 256).
-  void add_held_out(std::shared_ptr<const map::Keyframe> held_out);
+  /// A picture that the map did not get (up to 256), and which block of them it belongs to.
+  void add_held_out(std::shared_ptr<const map::Keyframe> held_out, int block);
   [[nodiscard]] std::size_t size() const { return whole_.kept().size(); }
 
   /// Writes keyframes/NNNNNN.jpg (undistorted) and .json (pose, camera) into `folder`, for the whole ones
@@ -33,7 +33,11 @@ class KeyframeAlbum {
  private:
   EvenSample<std::shared_ptr<const map::Keyframe>> whole_;
   EvenSample<std::shared_ptr<const map::Keyframe>> pictures_{1024};  ///< without their points
-  EvenSample<std::shared_ptr<const map::Keyframe>> held_out_{256};
+  struct HeldOut {
+    std::shared_ptr<const map::Keyframe> picture;
+    int block;
+  };
+  EvenSample<HeldOut> held_out_{256};
 };
 
 }  // namespace edgesplat::app

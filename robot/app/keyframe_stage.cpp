@@ -29,11 +29,12 @@ KeyframeStage::KeyframeStage(const keyframe::KeyframeConfig& config, const senso
       coloured_map_(kColouredMapSpacingM, kColouredMapPoints) {}
 
 Result<std::shared_ptr<const map::Keyframe>> KeyframeStage::make(const TrackedFrame& frame) {
-  if (!frame.image || !hold_out_.takes(frame.group.stamp)) return builder_.add(frame.group, frame.image);
+  const auto block = frame.image ? hold_out_.block_of(frame.group.stamp) : std::nullopt;
+  if (!block) return builder_.add(frame.group, frame.image);
   EDGESPLAT_TRY(auto held_out, builder_.hold_out(frame.group, *frame.image));
   if (held_out) {
     held_out_.add();
-    album_.add_held_out(std::move(held_out));
+    album_.add_held_out(std::move(held_out), *block);
   }
   return nullptr;
 }

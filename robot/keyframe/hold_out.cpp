@@ -4,7 +4,7 @@
 
 namespace edgesplat::keyframe {
 
-bool HoldOut::takes(HostTime stamp) {
+std::optional<int> HoldOut::block_of(HostTime stamp) {
   if (!first_) first_ = stamp;
   // A block that should have begun during another one begins when that is over.
   if (left_in_block_ == 0 && next_block_ < from_s_.size() &&
@@ -12,9 +12,9 @@ bool HoldOut::takes(HostTime stamp) {
     ++next_block_;
     left_in_block_ = pictures_;
   }
-  if (left_in_block_ == 0) return false;
+  if (left_in_block_ == 0) return std::nullopt;
   --left_in_block_;
-  return true;
+  return static_cast<int>(next_block_) - 1;
 }
 
 }  // namespace edgesplat::keyframe

@@ -18,8 +18,9 @@ class HoldOut {
   explicit HoldOut(const KeyframeConfig& config)
       : from_s_(config.hold_out_from_s), pictures_(config.hold_out_pictures) {}
 
-  /// To be asked once for every picture, in the order of their stamps: true for one to keep from the map.
-  [[nodiscard]] bool takes(HostTime stamp);
+  /// To be asked once for every picture, in the order of their stamps: the number of the block that it
+  /// belongs to, counted from 0; nothing for a picture that the map gets.
+  [[nodiscard]] std::optional<int> block_of(HostTime stamp);
 
  private:
   std::vector<double> from_s_;

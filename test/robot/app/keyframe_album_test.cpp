@@ -55,8 +55,8 @@ TEST(KeyframeAlbum, WritesEveryPictureButOnlyAFewWhole) {
 TEST(KeyframeAlbum, WritesWhatWasHeldOutApart) {
   KeyframeAlbum album(4);
   album.add(keyframe(0));
-  album.add_held_out(keyframe(7));
-  album.add_held_out(keyframe(8));
+  album.add_held_out(keyframe(7), 0);
+  album.add_held_out(keyframe(8), 1);
   const test::TempDir folder;
   const Status written = album.write(folder.path(), {}, {});
   ASSERT_TRUE(written) << written.error().context;
@@ -66,6 +66,9 @@ TEST(KeyframeAlbum, WritesWhatWasHeldOutApart) {
   std::ifstream text(folder.path() / "heldout" / "000001.json");
   const auto json = nlohmann::json::parse(text);
   EXPECT_DOUBLE_EQ(json["map_from_camera"]["translation_m"][0].get<double>(), 4.0);
+  EXPECT_EQ(json["block"], 1);
+  std::ifstream keyframe_text(folder.path() / "keyframes" / "000000.json");
+  EXPECT_FALSE(nlohmann::json::parse(keyframe_text).contains("block"));
 }
 
 TEST(KeyframeAlbum, LeavesOutWhatHasNoPicture) {

@@ -6,18 +6,21 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 namespace edgesplat::keyframe {
 namespace {
 
-/// Which of `count` pictures at 10 Hz, the first at 100 s, are held out.
-std::vector<int> taken(const KeyframeConfig& config, int count) {
+using Taken = std::vector<std::pair<int, int>>;
+
+/// Which of `count` pictures at 10 Hz, the first at 100 s, are held out, and in which block.
+Taken taken(const KeyframeConfig& config, int count) {
   HoldOut hold_out(config);
-  std::vector<int> numbers;
+  Taken numbers;
   for (int i = 0; i < count; ++i) {
-    if (hold_out.takes(HostTime(from_seconds(100.0) + i * std::chrono::milliseconds(100))))
-      numbers.push_back(i);
+    const auto block = hold_out.block_of(HostTime(from_seconds(100.0) + i * std::chrono::milliseconds(100)));
+    if (block) numbers.emplace_back(i, *block);
   }
   return numbers;
 }
@@ -30,14 +33,14 @@ TEST(HoldOut, TakesBlocksOfPicturesInARow) {
   KeyframeConfig config;
   config.hold_out_from_s = {0.5, 2.0};
   config.hold_out_pictures = 3;
-  EXPECT_EQ(taken(config, 50), (std::vector<int>{5, 6, 7, 20, 21, 22}));
+  EXPECT_EQ(taken(config, 50), (Taken{{5, 0}, {6, 0}, {7, 0}, {20, 1}, {21, 1}, {22, 1}}));
 }
 
 TEST(HoldOut, ABlockThatFallsIntoAnotherFollowsIt) {
   KeyframeConfig config;
   config.hold_out_from_s = {0.0, 0.1};
   config.hold_out_pictures = 2;
-  EXPECT_EQ(taken(config, 9), (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(taken(config, 9), (Taken{{0, 0}, {1, 0}, {2, 1}, {3, 1}}));
 }
 
 TEST(HoldOut, BeginsThatDoNotAscendAreAnErrorOfTheConfiguration) {
