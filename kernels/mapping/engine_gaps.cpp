@@ -4,11 +4,13 @@
 #include "kernels/mapping/engine.hpp"
 #include "kernels/splat/render.hpp"
 
+#include <algorithm>
+
 namespace edgesplat::mapping {
 namespace {
 
 /// Pixels of the view that the map has something for now are trained on.
-void mark_mapped(std::span<const SweptDepth> swept, std::span<const float> alpha, const SweepOptions& options,
+void mark_mapped(std::span<const PixelDepth> swept, std::span<const float> alpha, const SweepOptions& options,
                  StoredView& view) {
   if (view.unmapped.empty()) return;
   const auto width = static_cast<std::size_t>(view.camera().width_px);
@@ -17,7 +19,7 @@ void mark_mapped(std::span<const SweptDepth> swept, std::span<const float> alpha
   }
   // A point stands for the pixels around it.
   const int before = options.stride_px / 2;
-  for (const SweptDepth& d : swept) {
+  for (const PixelDepth& d : swept) {
     const int right = std::min(view.camera().width_px, d.x - before + options.stride_px);
     const int bottom = std::min(view.camera().height_px, d.y - before + options.stride_px);
     for (int y = std::max(0, d.y - before); y < bottom; ++y) {
@@ -58,7 +60,8 @@ Result<std::size_t> MappingEngine::fill_floor(const StoredView& view, const Seed
 Result<std::size_t> MappingEngine::fill_by_sweep(StoredView& view, const SeedInput& seeded,
                                                  std::span<const float> others) {
   std::vector<const StoredView*> newest_first;
-  for (const StoredView& other : views_.views()) newest_first.insert(newest_first.begin(), &other);
+  for (const StoredView& other : views_.views()) newest_first.push_back(&other);
+  std::reverse(newest_first.begin(), newest_first.end());
   const auto partners = sweep_partners(view, newest_first, options_.sweep);
   if (partners.empty()) return std::size_t{0};
   EDGESPLAT_TRY(const std::vector<float> alpha, draw_alpha(view, cloud(), others));

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/mapping/hole_fill.hpp"
 
+#include "kernels/mapping/pixel_points.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -45,11 +47,8 @@ std::vector<map::ColouredPoint> fill_holes(const StoredView& view,
                                            const HoleFillOptions& options) {
   const geometry::CameraModel& camera = view.camera();
   const FloorDepth floor(ground, view.map_from_camera);
-  std::vector<map::ColouredPoint> points;
-  if (!(floor.height_m() > 0.0F)) return points;
-  const geometry::RigidTransform body_from_camera = map_from_body.inverse() * view.map_from_camera;
-  const Eigen::Matrix3f rotation = body_from_camera.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Vector3f translation = body_from_camera.translation_m.cast<float>();
+  if (!(floor.height_m() > 0.0F)) return {};
+  std::vector<PixelDepth> filled;
   DepthAbove above(view);
   for (int y = 0; y < camera.height_px; y += options.stride_px) {
     above.go_down_to(y);
@@ -59,21 +58,13 @@ std::vector<map::ColouredPoint> fill_holes(const StoredView& view,
       if (alpha[pixel] > options.max_alpha || view.undistorter->seen()[pixel] == 0.0F) continue;
       if (!view.ignored.empty() && view.ignored[pixel]) continue;
       if (!view.unmapped.empty() && view.unmapped[pixel]) continue;
-      const Eigen::Vector3f ray(static_cast<float>((x - camera.cx_px) / camera.fx_px),
-                                static_cast<float>((y - camera.cy_px) / camera.fy_px), 1.0F);
-      const float inverse_depth = floor.inverse_depth(ray);
+      const float inverse_depth = floor.inverse_depth(ray_of(camera, x, y));
       if (!(inverse_depth > 0.0F)) continue;
       const float depth_m = std::min(1.0F / inverse_depth, above.at(x));
-      if (depth_m > options.max_depth_m) continue;
-      map::ColouredPoint point;
-      point.p_in_body_m = rotation * (depth_m * ray) + translation;
-      const std::uint8_t* rgb = view.picture.pixel(x, y);
-      std::copy(rgb, rgb + 3, point.rgb.begin());
-      point.has_colour = true;
-      points.push_back(point);
+      if (depth_m <= options.max_depth_m) filled.push_back({x, y, depth_m});
     }
   }
-  return points;
+  return points_of(filled, view, map_from_body);
 }
 
 }  // namespace edgesplat::mapping

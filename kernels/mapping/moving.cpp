@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/mapping/moving.hpp"
 
+#include "kernels/mapping/pixel_points.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,10 +16,7 @@ constexpr float kMostMark_px = 32.0F;
 
 Eigen::Vector3f in_camera(const SparseDepth& d, const geometry::CameraModel& camera) {
   const auto width = static_cast<std::uint32_t>(camera.width_px);
-  const std::uint32_t column = d.pixel % width;
-  const std::uint32_t row = d.pixel / width;
-  const Eigen::Vector3d ray((column - camera.cx_px) / camera.fx_px, (row - camera.cy_px) / camera.fy_px, 1.0);
-  return (ray * static_cast<double>(d.depth_m)).cast<float>();
+  return d.depth_m * ray_of(camera, static_cast<int>(d.pixel % width), static_cast<int>(d.pixel / width));
 }
 
 }  // namespace

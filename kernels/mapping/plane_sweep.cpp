@@ -51,12 +51,6 @@ class GreyPicture {
   std::vector<float> grey_;
 };
 
-/// With z = 1.
-Eigen::Vector3f ray_of(const geometry::CameraModel& camera, int x, int y) {
-  return {static_cast<float>((x - camera.cx_px) / camera.fx_px),
-          static_cast<float>((y - camera.cy_px) / camera.fy_px), 1.0F};
-}
-
 /// Another view, and where the new view's pixels come to lie in it.
 struct Partner {
   GreyPicture picture;
@@ -141,9 +135,9 @@ float inverse_depth_of(int number, const SweepOptions& options) {
 }
 
 /// The numbers of the depths on the grid of asked pixels.
-class DepthGrid {
+class NumberGrid {
  public:
-  DepthGrid(int columns, int rows)
+  NumberGrid(int columns, int rows)
       : columns_(columns),
         rows_(rows),
         numbers_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), kNoDepth) {}
@@ -195,7 +189,7 @@ std::vector<const StoredView*> sweep_partners(const StoredView& view,
   return partners;
 }
 
-std::vector<SweptDepth> sweep_depths(const StoredView& view, std::span<const StoredView* const> others,
+std::vector<PixelDepth> sweep_depths(const StoredView& view, std::span<const StoredView* const> others,
                                      const GroundPlane* ground, std::span<const float> alpha,
                                      const SweepOptions& options) {
   if (others.empty()) return {};
@@ -211,7 +205,7 @@ std::vector<SweptDepth> sweep_depths(const StoredView& view, std::span<const Sto
   const int stride = options.stride_px;
   const int columns = (view.camera().width_px + stride - 1) / stride;
   const int rows = (view.camera().height_px + stride - 1) / stride;
-  DepthGrid grid(columns, rows);
+  NumberGrid grid(columns, rows);
   thread::parallel_for(0, rows, [&](int row) {
     PatchCompare patch(view.camera(), options.patch_px);
     std::vector<float> differences(static_cast<std::size_t>(options.depths));
@@ -238,7 +232,7 @@ std::vector<SweptDepth> sweep_depths(const StoredView& view, std::span<const Sto
       grid.at(column, row) = choose(differences, options);
     }
   });
-  std::vector<SweptDepth> depths;
+  std::vector<PixelDepth> depths;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       if (grid.at(column, row) == kNoDepth) continue;
@@ -249,24 +243,6 @@ std::vector<SweptDepth> sweep_depths(const StoredView& view, std::span<const Sto
     }
   }
   return depths;
-}
-
-std::vector<map::ColouredPoint> points_of(std::span<const SweptDepth> depths, const StoredView& view,
-                                          const geometry::RigidTransform& map_from_body) {
-  const geometry::CameraModel& camera = view.camera();
-  const geometry::RigidTransform body_from_camera = map_from_body.inverse() * view.map_from_camera;
-  std::vector<map::ColouredPoint> points;
-  points.reserve(depths.size());
-  for (const SweptDepth& d : depths) {
-    const Eigen::Vector3d ray((d.x - camera.cx_px) / camera.fx_px, (d.y - camera.cy_px) / camera.fy_px, 1.0);
-    map::ColouredPoint point;
-    point.p_in_body_m = (body_from_camera * (static_cast<double>(d.depth_m) * ray)).cast<float>();
-    const std::uint8_t* rgb = view.picture.pixel(d.x, d.y);
-    std::copy(rgb, rgb + 3, point.rgb.begin());
-    point.has_colour = true;
-    points.push_back(point);
-  }
-  return points;
 }
 
 }  // namespace edgesplat::mapping

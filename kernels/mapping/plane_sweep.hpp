@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernels/mapping/ground.hpp"
+#include "kernels/mapping/pixel_points.hpp"
 #include "kernels/mapping/stored_view.hpp"
 
 #include <cstddef>
@@ -27,19 +28,13 @@ struct SweepOptions {
   float baseline_m = 0.25F;  ///< they lie at least so far apart from the new one, 0.01..10
 };
 
-/// A pixel and its depth by comparing pictures.
-struct SweptDepth {
-  int x, y;
-  float depth_m;  ///< z in the camera frame
-};
-
 /// The depth of what only the camera sees - over and beside the LiDAR's sight, or beyond its reach: a plane
 /// sweep (Collins 1996). For each asked pixel of a grid, depths are tried until the patch around it looks
 /// alike in the other views; a pixel that several depths suit gets the farthest (the sky, a blank wall), one
 /// that none suits gets nothing (what moves, what is hidden in the other views). A lonely depth takes the
 /// median of its neighbours'. Nothing lies beyond the floor (null: not known). `alpha`: [H,W] what the map
 /// covers of the view. Deterministic; loops on threads of the caller's arena. Nothing without other views.
-[[nodiscard]] std::vector<SweptDepth> sweep_depths(const StoredView& view,
+[[nodiscard]] std::vector<PixelDepth> sweep_depths(const StoredView& view,
                                                    std::span<const StoredView* const> others,
                                                    const GroundPlane* ground, std::span<const float> alpha,
                                                    const SweepOptions& options);
@@ -49,10 +44,5 @@ struct SweptDepth {
 [[nodiscard]] std::vector<const StoredView*> sweep_partners(const StoredView& view,
                                                             std::span<const StoredView* const> newest_first,
                                                             const SweepOptions& options);
-
-/// The swept pixels as points of their picture's colour, in the body frame at the view's pose.
-[[nodiscard]] std::vector<map::ColouredPoint> points_of(std::span<const SweptDepth> depths,
-                                                        const StoredView& view,
-                                                        const geometry::RigidTransform& map_from_body);
 
 }  // namespace edgesplat::mapping

@@ -38,7 +38,8 @@ struct StoredView {
 
   [[nodiscard]] const geometry::CameraModel& camera() const { return undistorter->model(); }
   [[nodiscard]] std::size_t size_bytes() const {
-    return sizeof(*this) + picture.values.size() + depths.size() * sizeof(SparseDepth);
+    return sizeof(*this) + picture.values.size() + depths.size() * sizeof(SparseDepth) +
+           (ignored.size() + unmapped.size()) / 8;
   }
 };
 

@@ -27,7 +27,7 @@ TEST(PlaneSweep, FindsAWallSideways) {
   // All but the strip that the other does not see.
   ASSERT_GT(depths.size(), 800U);
   std::size_t near_wall = 0;
-  for (const SweptDepth& d : depths)
+  for (const PixelDepth& d : depths)
     if (std::abs(1.0 / static_cast<double>(d.depth_m) - 1.0 / kWall_m) < 0.012) ++near_wall;
   EXPECT_GT(near_wall, depths.size() * 95 / 100) << "of " << depths.size();
 }
@@ -40,7 +40,7 @@ TEST(PlaneSweep, FindsItDrivingTowardsIt) {
   const auto depths = sweep_depths(view, others, nullptr, empty_alpha(), {});
   ASSERT_GT(depths.size(), 800U);
   int near_wall = 0, aside = 0;
-  for (const SweptDepth& d : depths) {
+  for (const PixelDepth& d : depths) {
     // Straight ahead nothing moves in the picture: there it may be anywhere.
     if (std::hypot(d.x - camera().cx_px, d.y - camera().cy_px) < 20.0) continue;
     ++aside;
@@ -54,7 +54,7 @@ TEST(PlaneSweep, PutsWhatShowsNoParallaxFarAway) {
   const StoredView other = seen_from({0.5, 0.0, 0.0}, 0.0);
   const StoredView* const others[] = {&other};
   int blank = 0;
-  for (const SweptDepth& d : sweep_depths(view, others, nullptr, empty_alpha(), {})) {
+  for (const PixelDepth& d : sweep_depths(view, others, nullptr, empty_alpha(), {})) {
     if (d.y > 36) continue;  // patches that touch the pattern
     ++blank;
     EXPECT_NEAR(d.depth_m, SweepOptions().farthest_m, 0.1F);
@@ -85,7 +85,7 @@ TEST(PlaneSweep, AsksOnlyForWhatIsEmptySeenAndStill) {
   for (std::size_t pixel = 0; pixel < alpha.size() / 2; ++pixel) view.ignored[pixel] = true;
   const auto depths = sweep_depths(view, others, nullptr, alpha, {});
   ASSERT_FALSE(depths.empty());
-  for (const SweptDepth& d : depths) {
+  for (const PixelDepth& d : depths) {
     EXPECT_GE(d.x, kWidth_px / 2);
     EXPECT_GE(d.y, kHeight_px / 2);
   }
@@ -100,7 +100,7 @@ TEST(PlaneSweep, PutsNothingBeyondTheFloor) {
   floor.normal = -Eigen::Vector3d::UnitY();
   floor.offset_m = -1.2;
   int on_floor = 0;
-  for (const SweptDepth& d : sweep_depths(view, others, &floor, empty_alpha(), {})) {
+  for (const PixelDepth& d : sweep_depths(view, others, &floor, empty_alpha(), {})) {
     const double down = (d.y - camera().cy_px) / camera().fy_px;
     const double floor_m = down > 0.0 ? 1.2 / down : 1e9;
     if (floor_m > 100.0) {
@@ -126,20 +126,6 @@ TEST(SweepPartners, LieFartherAndFartherApartAndLookTheSameWay) {
   ASSERT_EQ(partners.size(), 2U);
   EXPECT_EQ(partners[0], &fair);
   EXPECT_EQ(partners[1], &wide);
-}
-
-TEST(SweptPoints, LieOnTheirPixelsRayInThePicturesColour) {
-  const StoredView view = seen_from({1.0, 2.0, 3.0});
-  geometry::RigidTransform map_from_body;
-  map_from_body.translation_m = {0.5, 0.0, 0.0};
-  const SweptDepth depths[] = {{100, 20, 4.0F}};
-  const auto points = points_of(depths, view, map_from_body);
-  ASSERT_EQ(points.size(), 1U);
-  EXPECT_NEAR(points[0].p_in_body_m.x(), 0.5 + 4.0 * 20.5 / 120.0, 1e-5);
-  EXPECT_NEAR(points[0].p_in_body_m.y(), 2.0 - 4.0 * 27.5 / 120.0, 1e-5);
-  EXPECT_NEAR(points[0].p_in_body_m.z(), 7.0, 1e-5);
-  EXPECT_TRUE(points[0].has_colour);
-  EXPECT_EQ(points[0].rgb[0], view.picture.pixel(100, 20)[0]);
 }
 
 }  // namespace
