@@ -10,6 +10,7 @@
 #include "server/app/options.hpp"
 #include "server/app/server.hpp"
 #include "server/app/service_notify.hpp"
+#include "server/app/unsaved_keyframes.hpp"
 #include "server/store/map_folder.hpp"
 #include "server/stream/epoch_file.hpp"
 
@@ -69,6 +70,19 @@ Result<std::vector<store::StoredMap>> load_maps(const std::filesystem::path& fol
   return maps;
 }
 
+/// Keyframes that no saved map has; a log that cannot be read costs them, not the start.
+std::vector<ingest::IngestedKeyframe> load_unsaved(const std::filesystem::path& folder,
+                                                   std::span<const store::StoredMap> maps) {
+  const auto logged = store::read_newest_keyframes(folder);
+  if (!logged) {
+    EDGESPLAT_LOG_ERROR("store", "keyframe log not read", "why", logged.error().context);
+    return {};
+  }
+  auto unsaved = app::unsaved_keyframes(*logged, maps);
+  EDGESPLAT_LOG_INFO("store", "keyframe log read", "keyframes", logged->size(), "unsaved", unsaved.size());
+  return unsaved;
+}
+
 store::RecorderConfig recorder_config(const config::StoreConfig& config,
                                       const std::filesystem::path& folder) {
   store::RecorderConfig recorder;
@@ -111,6 +125,7 @@ Status run(const app::Options& options) {
   if (options.config.store.enabled) {
     const auto store_folder = folder / options.config.store.folder;
     EDGESPLAT_TRY(start.maps, load_maps(store_folder, options.config.max_robots));
+    start.unsaved = load_unsaved(store_folder, start.maps);
     start.recorder = &recorder.emplace(recorder_config(options.config.store, store_folder), registry, clock);
   }
   map::Epoch known;

@@ -40,8 +40,9 @@ MappingStage::MappingStage(const config::ServerConfig& config, Start start, Delt
       room_(std::move(room)),
       clock_(clock),
       ids_(config.instance_id, first_counter(start)),
-      restored_(std::move(start.maps)),
+      restored_(std::move(start.maps), std::move(start.unsaved)),
       keyframes_(registry.counter("map.keyframes")),
+      keyframes_again_(registry.counter("map.keyframes_again")),
       gaussians_(registry.counter("map.gaussians")),
       steps_(registry.counter("map.steps")),
       bad_pictures_(registry.counter("map.bad_pictures")),
@@ -59,6 +60,10 @@ std::vector<OutgoingDelta> MappingStage::handle(const ingest::IngestedKeyframe& 
   restored_.heard(keyframe.robot, keyframe.session);
   begin_restored();
   RobotMap& robot = map_of(keyframe);
+  if (robot.builder->has(keyframe.keyframe.id)) {
+    keyframes_again_.add();  // it was in the log of an earlier server, which had not told the robot
+    return {};
+  }
   const std::size_t mapped_before = robot.builder->poses().size();
   const std::size_t added = robot.builder->add(keyframe.keyframe);
   if (robot.builder->poses().size() > mapped_before) {
@@ -89,13 +94,14 @@ std::vector<OutgoingDelta> MappingStage::publish(map::RobotId robot, RobotMap& m
 }
 
 bool MappingStage::has_work() const {
-  return std::any_of(maps_.begin(), maps_.end(), [this](const auto& entry) {
-    return config_.optimise.enabled && entry.second.builder->has_work();
-  });
+  return restored_.has_keyframe() || std::any_of(maps_.begin(), maps_.end(), [this](const auto& entry) {
+           return config_.optimise.enabled && entry.second.builder->has_work();
+         });
 }
 
 std::vector<OutgoingDelta> MappingStage::work() {
   begin_restored();
+  if (const auto unsaved = restored_.take_keyframe()) return handle(*unsaved);
   if (maps_.empty()) return {};
   auto turn = maps_.upper_bound(last_worked_);
   if (turn == maps_.end()) turn = maps_.begin();

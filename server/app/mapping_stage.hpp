@@ -33,8 +33,9 @@ struct MapStatus {
 /// How a server begins.
 struct Start {
   map::Epoch epoch;
-  std::vector<store::StoredMap> maps = {};  ///< of earlier servers, for robots that still run
-  store::Recorder* recorder = nullptr;      ///< keeps keyframes and maps; null: nothing is kept
+  std::vector<store::StoredMap> maps = {};             ///< of earlier servers, for robots that still run
+  std::vector<ingest::IngestedKeyframe> unsaved = {};  ///< that came after those maps were saved
+  store::Recorder* recorder = nullptr;                 ///< keeps keyframes and maps; null: nothing is kept
 };
 
 /// How many bytes of deltas a robot's link takes now; what waits in front of it is old before it leaves.
@@ -48,8 +49,8 @@ struct OutgoingDelta {
 
 /// Keyframes in, deltas out: the map and the stream of each robot, optimised between keyframes. handle() and
 /// work() on one thread; answer() and take_heartbeat() on another; status() from any. Counts map.keyframes,
-/// map.gaussians, map.steps, map.bad_pictures, map.deltas, map.delta_bytes and the histograms map.keyframe_ms
-/// and map.step_ms.
+/// map.keyframes_again (mapped already), map.gaussians, map.steps, map.bad_pictures, map.deltas,
+/// map.delta_bytes and the histograms map.keyframe_ms and map.step_ms.
 class MappingStage {
  public:
   MappingStage(const config::ServerConfig& config, Start start, DeltaRoom room, metrics::Registry& registry,
@@ -107,6 +108,7 @@ class MappingStage {
   std::map<map::RobotId, RobotMap> maps_;  ///< of the mapping thread
   map::RobotId last_worked_{};
   metrics::Counter& keyframes_;
+  metrics::Counter& keyframes_again_;
   metrics::Counter& gaussians_;
   metrics::Counter& steps_;
   metrics::Counter& bad_pictures_;

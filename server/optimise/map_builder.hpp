@@ -4,6 +4,7 @@
 
 #include "kernels/mapping/engine.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -41,6 +42,10 @@ class MapBuilder {
   [[nodiscard]] const mapping::MappingEngine& engine() const { return *engine_; }
   /// Of every keyframe that was added, in their order.
   [[nodiscard]] std::span<const KeyframePose> poses() const { return poses_; }
+  [[nodiscard]] bool has(map::KeyframeId keyframe) const {
+    return std::any_of(poses_.rbegin(), poses_.rend(),
+                       [keyframe](const KeyframePose& pose) { return pose.keyframe == keyframe; });
+  }
   [[nodiscard]] std::uint64_t bad_pictures() const { return bad_pictures_; }
 
  private:

@@ -60,12 +60,30 @@ Result<std::vector<std::uint32_t>> segments_in(const std::filesystem::path& fold
   return numbers;
 }
 
+std::filesystem::path segment_path(const std::filesystem::path& folder, std::uint32_t segment) {
+  std::string digits = std::to_string(segment);
+  digits.insert(0, digits.size() < 6 ? 6 - digits.size() : 0, '0');
+  return folder / (std::string(kPrefix) + digits + std::string(kSuffix));
+}
+
+LoggedKeyframe from_payload(std::span<const std::byte> payload) {
+  ByteReader in(payload);
+  LoggedKeyframe keyframe;
+  keyframe.robot.value = in.read<std::uint16_t>();
+  keyframe.session = in.read<std::uint64_t>();
+  const auto rest = in.take(in.remaining());
+  keyframe.bytes.assign(rest.begin(), rest.end());
+  return keyframe;
+}
+
+bool is_keyframe(const Record& record) {
+  return record.type == kKeyframeRecord && record.payload.size() >= kPayloadHeader_bytes;
+}
+
 }  // namespace
 
 std::filesystem::path KeyframeLog::path_of(std::uint32_t segment) const {
-  std::string digits = std::to_string(segment);
-  digits.insert(0, digits.size() < 6 ? 6 - digits.size() : 0, '0');
-  return folder_ / (std::string(kPrefix) + digits + std::string(kSuffix));
+  return segment_path(folder_, segment);
 }
 
 Result<KeyframeLog> KeyframeLog::open(const std::filesystem::path& folder, const KeyframeLogConfig& config) {
@@ -87,7 +105,7 @@ Status KeyframeLog::scan(std::uint32_t segment, bool last) {
   std::uint64_t good_bytes = 0;
   while (const auto record = records.next()) {
     good_bytes = record->end;
-    if (record->type != kKeyframeRecord || record->payload.size() < kPayloadHeader_bytes) continue;
+    if (!is_keyframe(*record)) continue;
     const auto offset = static_cast<std::uint64_t>(record->payload.data() - bytes.data());
     entries_.push_back({segment, offset, static_cast<std::uint32_t>(record->payload.size())});
   }
@@ -175,13 +193,23 @@ Result<LoggedKeyframe> KeyframeLog::read(std::size_t index) const {
   const auto record = records.next();
   if (!record || record->payload.size() != entry.length)
     return fail(Errc::kCorrupt, "a keyframe in " + path.string() + " was damaged since it was written");
-  ByteReader in(record->payload);
-  LoggedKeyframe keyframe;
-  keyframe.robot.value = in.read<std::uint16_t>();
-  keyframe.session = in.read<std::uint64_t>();
-  const auto rest = in.take(in.remaining());
-  keyframe.bytes.assign(rest.begin(), rest.end());
-  return keyframe;
+  return from_payload(record->payload);
+}
+
+Result<std::vector<LoggedKeyframe>> read_newest_keyframes(const std::filesystem::path& folder) {
+  constexpr std::size_t kSegments = 2;
+  std::vector<LoggedKeyframe> keyframes;
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error)) return keyframes;
+  EDGESPLAT_TRY(const auto numbers, segments_in(folder));
+  for (std::size_t i = numbers.size() - std::min(kSegments, numbers.size()); i < numbers.size(); ++i) {
+    EDGESPLAT_TRY(const auto bytes, io::read_file(segment_path(folder, numbers[i]), kMaxSegment_bytes));
+    RecordReader records(bytes, 0);
+    while (const auto record = records.next()) {
+      if (is_keyframe(*record)) keyframes.push_back(from_payload(record->payload));
+    }
+  }
+  return keyframes;
 }
 
 }  // namespace edgesplat::store

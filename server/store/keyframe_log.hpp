@@ -70,4 +70,8 @@ class KeyframeLog {
   std::uint64_t damaged_bytes_ = 0;
 };
 
+/// What the newest segment of a folder's log and the one before it hold, oldest first, without opening the
+/// log; what is damaged is left out. Empty where there is no log. kIo.
+[[nodiscard]] Result<std::vector<LoggedKeyframe>> read_newest_keyframes(const std::filesystem::path& folder);
+
 }  // namespace edgesplat::store

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
+#include "server/store/keyframe_log.hpp"
 #include "server/store/map_file.hpp"
 #include "test/integration/server_link_fixture.hpp"
 #include "test/support/child_process.hpp"
@@ -80,6 +81,44 @@ TEST_F(ServerRestartTest, AKilledServerGoesOnWithTheMapOfARobotThatStillRuns) {
   server->signal(SIGTERM);
   EXPECT_EQ(server->wait(20s), 0);
   EXPECT_EQ(map_files().size(), 1U);
+}
+
+TEST_F(ServerRestartTest, WhatCameAfterTheLastSaveIsMappedAgainFromTheKeyframeLog) {
+  const auto start_unsaving = [&] {
+    return std::make_unique<ChildProcess>(
+        server_command({"--set", "store.save_period_s=3600", "--set", "optimise.enabled=false"}));
+  };
+  auto server = start_unsaving();
+  RobotEnd robot(domain_);
+  submit_walls(robot, 0, 4);
+  ASSERT_TRUE(robot.wait_for_delta(map::Epoch{1}, 8, 60s));
+  const auto before = robot.map().counters().gaussians;
+  const auto store_folder = folder_.path() / "server" / "store";
+  ASSERT_TRUE(speak_until(robot, [&] {
+    const auto logged = store::read_newest_keyframes(store_folder);
+    return logged && logged->size() == 4;
+  }));
+  ASSERT_TRUE(map_files().empty());
+  server->signal(SIGKILL);
+  ASSERT_EQ(server->wait(20s), 128 + SIGKILL);
+
+  server = start_unsaving();
+  EXPECT_TRUE(speak_until(robot,
+                          [&] {
+                            return robot.map().position().epoch == map::Epoch{2} &&
+                                   robot.map().counters().gaussians == before;
+                          }))
+      << robot.map().counters().gaussians << " of " << before;
+  server->signal(SIGTERM);
+  EXPECT_EQ(server->wait(20s), 0);
+
+  // The end saved it: a third server has nothing to map again.
+  server = start_unsaving();
+  EXPECT_TRUE(speak_until(robot, [&] {
+    return robot.map().position().epoch == map::Epoch{3} && robot.map().counters().gaussians == before;
+  })) << robot.map().counters().gaussians;
+  server->signal(SIGTERM);
+  EXPECT_EQ(server->wait(20s), 0);
 }
 
 TEST_F(ServerRestartTest, ARobotThatBeganAnewGetsAMapOfItsOwnAndTheOldFileStays) {

@@ -146,5 +146,28 @@ TEST(KeyframeLog, AFullDiskLosesOneKeyframeAndTheLogGoesOn) {
   EXPECT_EQ(open(folder.path()).size(), 2U);
 }
 
+TEST(KeyframeLog, TheNewestAreReadWithoutOpeningIt) {
+  const test::TempDir folder;
+  EXPECT_TRUE(read_newest_keyframes(folder.path() / "none")->empty());
+  KeyframeLogConfig config;
+  config.segment_bytes = 1000;  // two keyframes
+  auto log = open(folder.path(), config);
+  for (std::uint64_t i = 0; i < 7; ++i) ASSERT_TRUE(log.append(map::RobotId{3}, 40 + i, keyframe(i)));
+  const auto newest = read_newest_keyframes(folder.path());
+  ASSERT_TRUE(newest.has_value()) << newest.error().context;
+  ASSERT_EQ(newest->size(), 3U) << "one in the newest segment, two in the one before";
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    EXPECT_EQ((*newest)[i].robot.value, 3);
+    EXPECT_EQ((*newest)[i].session, 44 + i);
+    EXPECT_EQ((*newest)[i].bytes, keyframe(4 + i));
+  }
+  ASSERT_TRUE(log.append(map::RobotId{3}, 99, keyframe(9))) << "the log goes on";
+
+  // The end is cut off in the middle of the last one.
+  const auto last = folder.path() / "keyframes-000004.log";
+  std::filesystem::resize_file(last, std::filesystem::file_size(last) - 100);
+  EXPECT_EQ(read_newest_keyframes(folder.path())->size(), 3U);
+}
+
 }  // namespace
 }  // namespace edgesplat::store
