@@ -16,7 +16,8 @@ store::LoggedKeyframe logged(std::uint16_t robot, std::uint64_t session, std::ui
   return {map::RobotId{robot}, session, *map::encode_keyframe(test::wall_keyframe(id, 50))};
 }
 
-store::StoredMap saved(std::uint16_t robot, std::uint64_t session, std::vector<std::uint32_t> keyframes) {
+store::StoredMap saved(std::uint16_t robot, std::uint64_t session,
+                       const std::vector<std::uint32_t>& keyframes) {
   store::StoredMap map;
   map.robot.value = robot;
   map.session = session;
