@@ -89,7 +89,7 @@ bool FrameServer::wait_for_robot(std::chrono::milliseconds timeout, const std::s
 void FrameServer::push(const FrameMessage& message, std::vector<std::byte> payload) {
   if (!worker_) {
     worker_.emplace(
-        thread::Worker::consume<Frame>("frame-server", queue_, [this](Frame frame) { serve(frame); }));
+        thread::Worker::consume<Frame>("frame-server", queue_, [this](const Frame& frame) { serve(frame); }));
   }
   queue_.push({message, std::move(payload)});
 }
