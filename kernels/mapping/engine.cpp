@@ -37,12 +37,10 @@ int shrink_to(std::size_t most_pixels, const geometry::CameraModel& camera) {
   return static_cast<int>(shrink);
 }
 
-/// Nothing where one of `masks` is set is trained on.
-void leave_out(std::span<const std::vector<bool>* const> masks, std::vector<float>& weight) {
-  for (const std::vector<bool>* mask : masks) {
-    for (std::size_t pixel = 0; pixel < mask->size(); ++pixel) {
-      if ((*mask)[pixel]) weight[pixel] = 0.0F;
-    }
+/// Nothing where `mask` is set is trained on; an empty one sets nothing.
+void leave_out(const std::vector<bool>& mask, std::vector<float>& weight) {
+  for (std::size_t pixel = 0; pixel < mask.size(); ++pixel) {
+    if (mask[pixel]) weight[pixel] = 0.0F;
   }
 }
 
@@ -193,8 +191,8 @@ TrainingView MappingEngine::prepare(const StoredView& view) {
   training.weight = view.undistorter->seen();
   if (!view.ignored.empty() || !view.unmapped.empty()) {
     weight_.assign(training.weight.begin(), training.weight.end());
-    const std::vector<bool>* const masks[] = {&view.ignored, &view.unmapped};
-    leave_out(masks, weight_);
+    leave_out(view.ignored, weight_);
+    leave_out(view.unmapped, weight_);
     training.weight = weight_;
   }
   if (!view.exposure_known) training.exposure_key = view.keyframe.value;

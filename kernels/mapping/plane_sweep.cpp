@@ -27,9 +27,9 @@ class GreyPicture {
       grey_[i] = static_cast<float>(rgb[0] + 2 * rgb[1] + rgb[2]) / 1020.0F;
     }
   }
-  [[nodiscard]] bool holds(float u, float v, float margin) const {
-    return u >= margin && v >= margin && u < static_cast<float>(width_ - 1) - margin &&
-           v < static_cast<float>(height_ - 1) - margin;
+  [[nodiscard]] bool holds(float u, float v) const {
+    return u >= 0.0F && v >= 0.0F && u < static_cast<float>(width_ - 1) &&
+           v < static_cast<float>(height_ - 1);
   }
   [[nodiscard]] float at(int x, int y) const { return grey_[index(x, y)]; }
   /// Bilinear; inside as of holds().
@@ -76,10 +76,10 @@ class PatchCompare {
  public:
   PatchCompare(const geometry::CameraModel& camera, int half_px) : camera_(camera), half_px_(half_px) {}
 
-  /// False where the patch reaches over the edge.
-  bool take(const GreyPicture& picture, int x, int y) {
-    if (x < half_px_ || y < half_px_ || x + half_px_ >= camera_.width_px || y + half_px_ >= camera_.height_px)
-      return false;
+  /// The patch around a pixel, or the nearest one that lies within the picture, which must hold one.
+  void take(const GreyPicture& picture, int at_x, int at_y) {
+    const int x = std::clamp(at_x, half_px_, camera_.width_px - 1 - half_px_);
+    const int y = std::clamp(at_y, half_px_, camera_.height_px - 1 - half_px_);
     own_.clear();
     rays_.clear();
     for (int v = y - half_px_; v <= y + half_px_; ++v) {
@@ -89,8 +89,21 @@ class PatchCompare {
       }
     }
     remove_mean(own_);
-    return true;
   }
+  /// Mean over the others that see the whole patch, each as of difference(); infinite where none does.
+  float mean_difference(std::span<const Partner> others, float inverse_depth) {
+    float sum = 0.0F;
+    float count = 0.0F;
+    for (const Partner& other : others) {
+      const float d = difference(other, inverse_depth);
+      if (std::isinf(d)) continue;
+      sum += d;
+      count += 1.0F;
+    }
+    return count > 0.0F ? sum / count : std::numeric_limits<float>::infinity();
+  }
+
+ private:
   /// Mean absolute difference; infinite where the other does not see the whole patch.
   float difference(const Partner& other, float inverse_depth) {
     seen_.clear();
@@ -98,7 +111,7 @@ class PatchCompare {
       const Eigen::Vector3f p = other.other_from_ray * ray + inverse_depth * other.other_offset;
       const float u = p.x() / p.z();
       const float v = p.y() / p.z();
-      if (!(p.z() > 0.0F) || !other.picture.holds(u, v, 0.0F)) return std::numeric_limits<float>::infinity();
+      if (!(p.z() > 0.0F) || !other.picture.holds(u, v)) return std::numeric_limits<float>::infinity();
       seen_.push_back(other.picture.at(u, v));
     }
     remove_mean(seen_);
@@ -106,8 +119,6 @@ class PatchCompare {
     for (std::size_t i = 0; i < own_.size(); ++i) sum += std::abs(own_[i] - seen_[i]);
     return sum / static_cast<float>(own_.size());
   }
-
- private:
   static void remove_mean(std::vector<float>& values) {
     float mean = 0.0F;
     for (const float value : values) mean += value;
@@ -192,7 +203,8 @@ std::vector<const StoredView*> sweep_partners(const StoredView& view,
 std::vector<PixelDepth> sweep_depths(const StoredView& view, std::span<const StoredView* const> others,
                                      const GroundPlane* ground, std::span<const float> alpha,
                                      const SweepOptions& options) {
-  if (others.empty()) return {};
+  const int least_side_px = std::min(view.camera().width_px, view.camera().height_px);
+  if (others.empty() || least_side_px <= 2 * options.patch_px) return {};
   std::optional<FloorDepth> floor;
   if (ground != nullptr) floor.emplace(*ground, view.map_from_camera);
   const auto least_inverse_depth = [&](int x, int y) {
@@ -210,24 +222,14 @@ std::vector<PixelDepth> sweep_depths(const StoredView& view, std::span<const Sto
     PatchCompare patch(view.camera(), options.patch_px);
     std::vector<float> differences(static_cast<std::size_t>(options.depths));
     for (int column = 0; column < columns; ++column) {
-      // The patches of the picture's edge are moved inwards.
-      const int x =
-          std::clamp(column * stride, options.patch_px, view.camera().width_px - 1 - options.patch_px);
-      const int y =
-          std::clamp(row * stride, options.patch_px, view.camera().height_px - 1 - options.patch_px);
-      if (!asked(view, alpha, column * stride, row * stride, options) || !patch.take(own, x, y)) continue;
+      const int x = column * stride;
+      const int y = row * stride;
+      if (!asked(view, alpha, x, y, options)) continue;
+      patch.take(own, x, y);
       const float least = least_inverse_depth(x, y);
       for (int number = 0; number < options.depths; ++number) {
-        float sum = 0.0F;
-        float count = 0.0F;
-        for (const Partner& partner : partners) {
-          const float d = patch.difference(partner, std::max(least, inverse_depth_of(number, options)));
-          if (std::isinf(d)) continue;
-          sum += d;
-          count += 1.0F;
-        }
         differences[static_cast<std::size_t>(number)] =
-            count > 0.0F ? sum / count : std::numeric_limits<float>::infinity();
+            patch.mean_difference(partners, std::max(least, inverse_depth_of(number, options)));
       }
       grid.at(column, row) = choose(differences, options);
     }

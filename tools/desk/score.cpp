@@ -19,7 +19,6 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -107,10 +106,6 @@ Result<quality::HeldOutScores> score_against_world(const ScoreOptions& options, 
 /// Fewer pixels, as a share of the picture, say too little.
 constexpr double kLeastShare = 0.01;
 
-double share_of(const std::vector<float>& weight) {
-  return std::accumulate(weight.begin(), weight.end(), 0.0) / static_cast<double>(weight.size());
-}
-
 /// `mask` may be null: then every pixel counts that the camera saw.
 Result<quality::HeldOutTruth> truth_of_picture(const std::filesystem::path& path, const ScoredCamera& camera,
                                                quality::StaticMask* mask) {
@@ -127,7 +122,7 @@ Result<quality::HeldOutTruth> truth_of_picture(const std::filesystem::path& path
     truth.weight_with_shadows[i] *= stays.without_movers[i];
   }
   // Where movers fill the picture nothing may be left.
-  if (share_of(truth.weight) < kLeastShare) truth.weight = truth.weight_with_shadows;
+  if (quality::share_that_counts(truth.weight) < kLeastShare) truth.weight = truth.weight_with_shadows;
   return truth;
 }
 

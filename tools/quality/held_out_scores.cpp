@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <span>
 #include <system_error>
 
@@ -21,11 +20,6 @@ Result<sensor::ImageRgb8> draw(const gaussian::GaussianCloud& cloud, const HeldO
   EDGESPLAT_TRY(render::View drawn,
                 render::draw_view(cloud, input.keyframes.front().camera, view.map_from_camera.inverse()));
   return std::move(drawn.picture);
-}
-
-double mean_of(std::span<const float> weight) {
-  if (weight.empty()) return 1.0;
-  return std::accumulate(weight.begin(), weight.end(), 0.0) / static_cast<double>(weight.size());
 }
 
 /// Of the size of the picture that it weighs; white counts.
@@ -50,7 +44,7 @@ Result<HeldOutScore> score_one(const HeldOutInput& input, const HeldOutView& vie
   const auto against_truth = [&](const sensor::ImageRgb8& picture) {
     return score_picture(picture, truth.picture, truth.weight, input.lpips);
   };
-  score.static_share = mean_of(truth.weight);
+  score.static_share = share_that_counts(truth.weight);
   EDGESPLAT_TRY_STATUS(io::save_image(file("target"), truth.picture));
   if (input.kind == HeldOutKind::kReal) {
     EDGESPLAT_TRY_STATUS(io::save_image(file("weight"), picture_of_weight(truth)));

@@ -5,6 +5,7 @@
 #include "common/sensor/image_values.hpp"
 #include "kernels/train/image_measures.hpp"
 
+#include <numeric>
 #include <vector>
 
 namespace edgesplat::quality {
@@ -36,6 +37,11 @@ Result<PictureScore> score_picture(const sensor::ImageRgb8& drawn, const sensor:
     EDGESPLAT_TRY(score.lpips, lpips->distance(equal_where_nothing_counts(drawn, real, weight), real));
   }
   return score;
+}
+
+double share_that_counts(std::span<const float> weight) {
+  if (weight.empty()) return 1.0;
+  return std::accumulate(weight.begin(), weight.end(), 0.0) / static_cast<double>(weight.size());
 }
 
 }  // namespace edgesplat::quality

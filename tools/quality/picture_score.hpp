@@ -23,4 +23,7 @@ struct PictureScore {
                                                  const sensor::ImageRgb8& real, std::span<const float> weight,
                                                  Lpips* lpips);
 
+/// How much of a picture a weight as above lets count, 0..1.
+[[nodiscard]] double share_that_counts(std::span<const float> weight);
+
 }  // namespace edgesplat::quality

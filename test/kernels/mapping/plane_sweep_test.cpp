@@ -113,6 +113,17 @@ TEST(PlaneSweep, PutsNothingBeyondTheFloor) {
   EXPECT_GT(on_floor, 300);
 }
 
+TEST(PlaneSweep, FindsNothingInAPictureSmallerThanAPatch) {
+  StoredView view;
+  view.undistorter = std::make_shared<image::Undistorter>(
+      geometry::CameraModel{geometry::CameraKind::kPinhole, 4, 40, 40.0, 40.0, 1.5, 19.5, {}});
+  view.picture = sensor::ImageRgb8(4, 40, 90);
+  StoredView other = view;
+  other.map_from_camera.translation_m.x() = 0.5;
+  const StoredView* const others[] = {&other};
+  EXPECT_TRUE(sweep_depths(view, others, nullptr, std::vector<float>(160, 0.0F), {}).empty());
+}
+
 TEST(SweepPartners, LieFartherAndFartherApartAndLookTheSameWay) {
   const StoredView view = seen_from({0.0, 0.0, 2.0});
   StoredView turned = seen_from({0.0, 0.0, 1.0});
