@@ -163,31 +163,43 @@ void Optimiser::compare(const TrainingView& view, StepReport& report) {
   }
 }
 
-void Optimiser::regularise(train::GaussianGradients& gradients, StepReport& report) const {
+double Optimiser::regularise(const train::GradientBlock& block, std::size_t visible) const {
   using train::ParameterRow;
-  if (gradients.rows.empty() || (options_.opacity_factor <= 0.0F && options_.scale_factor <= 0.0F)) return;
-  const float share = 1.0F / static_cast<float>(gradients.rows.size());
-  for (std::size_t i = 0; i < gradients.rows.size(); ++i) {
-    const std::size_t row = gradients.rows[i];
-    float* by = &gradients.values[i * gradients.stride];
+  if (options_.opacity_factor <= 0.0F && options_.scale_factor <= 0.0F) return 0.0;
+  const std::size_t stride = ParameterRow::stride(options_.sh_degree);
+  const float share = 1.0F / static_cast<float>(visible);
+  double loss = 0.0;
+  for (std::size_t i = 0; i < block.rows.size(); ++i) {
+    const std::size_t row = block.rows[i];
+    float* by = &block.values[i * stride];
     const float opacity = 1.0F / (1.0F + std::exp(-cloud_.opacity_logits[row]));
     by[ParameterRow::kOpacity] += options_.opacity_factor * share * opacity * (1.0F - opacity);
-    report.loss += static_cast<double>(options_.opacity_factor * share * opacity);
+    loss += static_cast<double>(options_.opacity_factor * share * opacity);
     for (std::size_t k = 0; k < 3; ++k) {
       const float scale_m = std::exp(cloud_.log_scales[3 * row + k]);
       by[ParameterRow::kLogScale + k] += options_.scale_factor * share * scale_m / 3.0F;
-      report.loss += static_cast<double>(options_.scale_factor * share * scale_m / 3.0F);
+      loss += static_cast<double>(options_.scale_factor * share * scale_m / 3.0F);
     }
   }
+  return loss;
 }
 
-void Optimiser::update(const train::GaussianGradients& gradients, float half_width_px) {
-  adam_.step(gradients, options_.rates, cloud_);
+void Optimiser::move_rows(const splat::View& view, std::span<const splat::Splat> splats,
+                          std::span<const train::SplatBackward> by_splat, StepReport& report) {
   changes_.begin();
-  for (std::size_t i = 0; i < gradients.rows.size(); ++i) {
-    changes_.touch(gradients.rows[i]);
-    add_sighting(gradients.sightings[i], half_width_px, statistics_[gradients.rows[i]]);
-  }
+  const float half_width_px = 0.5F * static_cast<float>(view.width_px);
+  std::vector<double> losses(splats.size() / train::kGradientBlock + 1, 0.0);
+  report.by_pose = train::gaussian_backward_in_blocks(
+      splat::spans_of(cloud_), view, splats, by_splat, rows_scratch_, [&](const train::GradientBlock& block) {
+        losses[block.number] = regularise(block, rows_scratch_.rows.size());
+        adam_.step(block.rows, block.values, options_.rates, cloud_);
+        for (std::size_t i = 0; i < block.rows.size(); ++i) {
+          changes_.touch(block.rows[i]);
+          add_sighting(block.sightings[i], half_width_px, statistics_[block.rows[i]]);
+        }
+      });
+  for (const double loss : losses) report.loss += loss;
+  report.visible = rows_scratch_.rows.size();
 }
 
 Result<StepReport> Optimiser::step(const TrainingView& view) {
@@ -208,12 +220,8 @@ Result<StepReport> Optimiser::step(const TrainingView& view) {
   const auto by_splat =
       train::blend_backward(projected.splats, tiles, view.view, {p.colour, p.depth_sum_m, p.alpha},
                             {p.by_colour, p.by_depth_sum, p.by_alpha}, scratch_);
-  train::gaussian_backward(gaussians, view.view, projected.splats, by_splat, gradients_);
-  report.by_pose = gradients_.pose;
-  report.visible = gradients_.rows.size();
-  regularise(gradients_, report);
   report.times.backward = watch.lap();
-  update(gradients_, 0.5F * static_cast<float>(view.view.width_px));
+  move_rows(view.view, projected.splats, by_splat, report);
   report.times.update = watch.lap();
   return report;
 }

@@ -19,7 +19,9 @@
 namespace edgesplat::mapping {
 
 struct StepTimes {
-  std::chrono::nanoseconds forward{}, loss{}, backward{}, update{};
+  std::chrono::nanoseconds forward{}, loss{};
+  std::chrono::nanoseconds backward{};  ///< from the pictures to the splats
+  std::chrono::nanoseconds update{};    ///< from the splats to the Gaussians, and Adam
   [[nodiscard]] std::chrono::nanoseconds total() const { return forward + loss + backward + update; }
 };
 
@@ -87,8 +89,11 @@ class Optimiser {
   };
   void size_pictures(const TrainingView& view);
   void compare(const TrainingView& view, StepReport& report);
-  void regularise(train::GaussianGradients& gradients, StepReport& report) const;
-  void update(const train::GaussianGradients& gradients, float half_width_px);
+  /// Adds the regularisers' gradients to a block's, and returns what they cost.
+  double regularise(const train::GradientBlock& block, std::size_t visible) const;
+  /// From the splats' gradients to moved Gaussians.
+  void move_rows(const splat::View& view, std::span<const splat::Splat> splats,
+                 std::span<const train::SplatBackward> by_splat, StepReport& report);
   void keep_rows(std::span<const std::uint32_t> rows);
 
   OptimiserOptions options_;
@@ -101,7 +106,7 @@ class Optimiser {
   // Kept from step to step for their memory only.
   Pictures pictures_;
   train::BlendBackwardScratch scratch_;
-  train::GaussianGradients gradients_;
+  train::GaussianBackwardScratch rows_scratch_;
   std::uint64_t rows_refused_ = 0;
 };
 

@@ -1,101 +1,191 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
-#include "common/thread/parallel_for.hpp"
-#include "kernels/core/simd_variants.hpp"
 #include "kernels/splat/blend.hpp"
-#include "kernels/splat/pixel_alpha.hpp"
-#include "kernels/splat/tile_blocks.hpp"
+
+#include "common/thread/parallel_for.hpp"
+#include "kernels/core/simd.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
+#include <cstring>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/splat/blend_cpu.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+
+#include "kernels/splat/lanes-inl.hpp"
+#include "kernels/splat/splat_one.hpp"
+
+#include <hwy/highway.h>
+
+#ifndef EDGESPLAT_KERNELS_SPLAT_BLEND_ONCE
+#define EDGESPLAT_KERNELS_SPLAT_BLEND_ONCE
 namespace edgesplat::splat {
-namespace {
 
-/// A tile's accumulators, channel by channel so that a block of pixels is a vector.
-struct Tile {
+/// Splats of a tile that are taken at once: as many as fit the first cache beside the pixels.
+inline constexpr std::size_t kChunk = 256;
+
+/// A tile's accumulators.
+struct BlendTile {
   TilePlane transmittance;  ///< negative, its size kept, once the pixel is full
   TilePlane red, green, blue, depth;
 };
 
-void clear(Tile& tile) {
+struct BlendScratch {
+  TileSplat splats[kChunk];
+  /// Which of them reach each block, nearest first.
+  std::uint8_t list[kBlocks][kChunk];
+  std::uint32_t count[kBlocks];
+};
+
+/// Where a tile goes.
+struct TileTarget {
+  int x0_px, y0_px;         ///< first pixel
+  int width_px, height_px;  ///< of what lies in the picture
+  int stride_px;            ///< the picture's width
+  std::array<float, 3> background;
+  const BlendOutputs& out;
+};
+
+struct BlendTask {
+  std::span<const Splat> splats;
+  std::span<const std::uint32_t> list;
+  std::span<const std::uint16_t> reached;
+  float centre_x_px, centre_y_px;
+};
+
+}  // namespace edgesplat::splat
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgesplat::splat::HWY_NAMESPACE {
+
+/// Adds the scratch's splats to a block: its pixels stay in registers while the splats go by. True while some
+/// pixel still takes splats.
+bool add_to_block(const BlendScratch& scratch, int block, BlendTile& tile) {
+  const D d;
+  const V zero = hn::Zero(d), most = hn::Set(d, kMaxAlpha), least = hn::Set(d, kMinAlpha);
+  const V least_left = hn::Set(d, kMinTransmittance), sign = hn::Set(d, -0.0F);
+  bool open = false;
+  for (int part = 0; part < kParts; ++part) {
+    const PixelPlaces at = places_of(d, block, part);
+    const std::size_t first = static_cast<std::size_t>(part * kLanes);
+    V left = hn::Load(d, tile.transmittance.at[block] + first);
+    V red = hn::Load(d, tile.red.at[block] + first), green = hn::Load(d, tile.green.at[block] + first);
+    V blue = hn::Load(d, tile.blue.at[block] + first), depth = hn::Load(d, tile.depth.at[block] + first);
+    for (std::uint32_t i = 0; i < scratch.count[block]; ++i) {
+      const TileSplat& s = scratch.splats[scratch.list[block][i]];
+      const V raw = raw_alpha_lanes(d, s, at);
+      const V alpha = hn::IfThenElseZero(hn::Ge(raw, least), hn::Min(raw, most));
+      const V after = hn::NegMulAdd(alpha, left, left);
+      const auto takes = hn::Ge(after, least_left);
+      const V weight = hn::IfThenElse(takes, hn::Mul(alpha, left), zero);
+      red = hn::MulAdd(weight, hn::Set(d, s.rgb[0]), red);
+      green = hn::MulAdd(weight, hn::Set(d, s.rgb[1]), green);
+      blue = hn::MulAdd(weight, hn::Set(d, s.rgb[2]), blue);
+      depth = hn::MulAdd(weight, hn::Set(d, s.depth_m), depth);
+      left = hn::IfThenElse(takes, after, hn::Or(left, sign));
+    }
+    hn::Store(left, d, tile.transmittance.at[block] + first);
+    hn::Store(red, d, tile.red.at[block] + first);
+    hn::Store(green, d, tile.green.at[block] + first);
+    hn::Store(blue, d, tile.blue.at[block] + first);
+    hn::Store(depth, d, tile.depth.at[block] + first);
+    open = open || !hn::AllTrue(d, hn::Lt(left, zero));
+  }
+  return open;
+}
+
+void blend_tile(const BlendTask& task, BlendScratch& scratch, BlendTile& tile) {
+  constexpr std::size_t kAhead = 8;  // a tile's splats lie all over memory
+  std::uint32_t open = (1U << kBlocks) - 1;
+  for (std::size_t first = 0; first < task.list.size() && open != 0; first += kChunk) {
+    const std::size_t count = std::min(kChunk, task.list.size() - first);
+    std::memset(scratch.count, 0, sizeof(scratch.count));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (first + i + kAhead < task.list.size())
+        __builtin_prefetch(&task.splats[task.list[first + i + kAhead]]);
+      set_tile_splat(task.splats[task.list[first + i]], task.centre_x_px, task.centre_y_px,
+                     scratch.splats[i]);
+      for (std::uint32_t todo = task.reached[first + i] & open; todo != 0; todo &= todo - 1) {
+        const int block = std::countr_zero(todo);
+        scratch.list[block][scratch.count[block]++] = static_cast<std::uint8_t>(i);
+      }
+    }
+    for (std::uint32_t todo = open; todo != 0; todo &= todo - 1) {
+      const int block = std::countr_zero(todo);
+      if (!add_to_block(scratch, block, tile)) open &= ~(1U << static_cast<unsigned>(block));
+    }
+  }
+}
+
+/// A run of pixels in one row of a block, from the tile to the pictures.
+template <typename Run>
+HWY_INLINE void write_run(Run run, const BlendTile& tile, int block, int pixel, const TileTarget& to,
+                          std::size_t at) {
+  const auto i = static_cast<std::size_t>(pixel);
+  const auto left = hn::Abs(hn::LoadU(run, tile.transmittance.at[block] + i));
+  const auto colour = [&](const TilePlane& plane, float background) HWY_ATTR {
+    return hn::MulAdd(left, hn::Set(run, background), hn::LoadU(run, plane.at[block] + i));
+  };
+  hn::StoreInterleaved3(colour(tile.red, to.background[0]), colour(tile.green, to.background[1]),
+                        colour(tile.blue, to.background[2]), run, &to.out.colour[3 * at]);
+  hn::StoreU(hn::LoadU(run, tile.depth.at[block] + i), run, &to.out.depth_sum_m[at]);
+  hn::StoreU(hn::Sub(hn::Set(run, 1.0F), left), run, &to.out.alpha[at]);
+}
+
+void write_tile(const BlendTile& tile, const TileTarget& to) {
+  const hn::CappedTag<float, kBlockPx> run;
+  const hn::CappedTag<float, 1> single;
+  const int step = static_cast<int>(hn::Lanes(run));
+  for (int y = 0; y < to.height_px; ++y) {
+    const std::size_t row = static_cast<std::size_t>(to.y0_px + y) * static_cast<std::size_t>(to.stride_px) +
+                            static_cast<std::size_t>(to.x0_px);
+    int x = 0;
+    for (; x + step <= to.width_px; x += step)
+      write_run(run, tile, block_of(x, y), pixel_of(x, y), to, row + static_cast<std::size_t>(x));
+    for (; x < to.width_px; ++x)
+      write_run(single, tile, block_of(x, y), pixel_of(x, y), to, row + static_cast<std::size_t>(x));
+  }
+}
+
+}  // namespace edgesplat::splat::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgesplat::splat {
+namespace {
+
+HWY_EXPORT(blend_tile);
+HWY_EXPORT(write_tile);
+
+void clear(BlendTile& tile) {
   tile = {};
-  std::fill_n(&tile.transmittance[0][0], kBlocks * kBlockPixels, 1.0F);
+  std::fill_n(&tile.transmittance.at[0][0], kBlocks * kBlockPixels, 1.0F);
 }
-
-/// Adds one splat to block k, whose first pixel lies at (left, top) from its centre.
-EDGESPLAT_INLINE void add_to_block(const Splat& s, const Falloff f, float left, float top, int k,
-                                   Tile& tile) {
-  for (int i = 0; i < kBlockPixels; ++i) {
-    const float alpha = blended_alpha(raw_alpha(f, left + kPixelX[i], top + kPixelY[i]));
-    const float before = tile.transmittance[k][i];
-    const float after = before * (1.0F - alpha);
-    const bool takes = after >= kMinTransmittance;
-    const float weight = takes ? alpha * before : 0.0F;
-    tile.red[k][i] = std::fma(weight, s.rgb[0], tile.red[k][i]);
-    tile.green[k][i] = std::fma(weight, s.rgb[1], tile.green[k][i]);
-    tile.blue[k][i] = std::fma(weight, s.rgb[2], tile.blue[k][i]);
-    tile.depth[k][i] = std::fma(weight, s.depth_m, tile.depth[k][i]);
-    tile.transmittance[k][i] = takes ? after : -std::abs(before);
-  }
-}
-
-void write_tile(const Tile& tile, int column, int row, const View& view, const RenderOptions& options,
-                const BlendOutputs& out) {
-  const int x0 = column * kTilePx;
-  const int y0 = row * kTilePx;
-  for (int y = 0; y < std::min(kTilePx, view.height_px - y0); ++y) {
-    for (int x = 0; x < std::min(kTilePx, view.width_px - x0); ++x) {
-      const auto pixel = static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(view.width_px) +
-                         static_cast<std::size_t>(x0 + x);
-      const int k = block_of(x, y);
-      const int i = pixel_of(x, y);
-      const float left = std::abs(tile.transmittance[k][i]);
-      out.colour[3 * pixel] = tile.red[k][i] + left * options.background[0];
-      out.colour[3 * pixel + 1] = tile.green[k][i] + left * options.background[1];
-      out.colour[3 * pixel + 2] = tile.blue[k][i] + left * options.background[2];
-      out.depth_sum_m[pixel] = tile.depth[k][i];
-      out.alpha[pixel] = 1.0F - left;
-    }
-  }
-}
-
-EDGESPLAT_INLINE void blend_tile_inline(std::span<const Splat> splats, std::span<const std::uint32_t> list,
-                                        int column, int row, Tile& tile) {
-  constexpr std::size_t kCheckEvery = 16;  // looking which blocks are full costs about one splat
-  const auto x0 = static_cast<float>(column * kTilePx);
-  const auto y0 = static_cast<float>(row * kTilePx);
-  clear(tile);
-  std::uint32_t active = (1U << kBlocks) - 1;
-  for (std::size_t i = 0; i < list.size() && active != 0; ++i) {
-    if (i + kPrefetchAhead < list.size()) __builtin_prefetch(&splats[list[i + kPrefetchAhead]]);
-    const Splat s = splats[list[i]];  // a copy: else the compiler fears that the tile overlaps it
-    const Falloff falloff = falloff_of(s);
-    for (std::uint32_t todo = blocks_reached(s, x0, y0) & active; todo != 0; todo &= todo - 1) {
-      const int k = std::countr_zero(todo);
-      add_to_block(s, falloff, x0 - s.u_px + 4.0F * kPixelX[k], y0 - s.v_px + 4.0F * kPixelY[k], k, tile);
-    }
-    if (i % kCheckEvery == kCheckEvery - 1) active = blocks_active(tile.transmittance);
-  }
-}
-
-EDGESPLAT_SIMD_VARIANTS(blend_tile,
-                        (std::span<const Splat> splats, std::span<const std::uint32_t> list, int column,
-                         int row, Tile& tile),
-                        (splats, list, column, row, tile))
 
 }  // namespace
 
 void blend(std::span<const Splat> splats, const TileLists& tiles, const View& view,
            const RenderOptions& options, const BlendOutputs& out) {
-  const auto draw = fastest_blend_tile();
   thread::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
     const int column = t % tiles.columns;
     const int row = t / tiles.columns;
-    Tile tile;
-    draw(splats, tiles.tile(column, row), column, row, tile);
-    write_tile(tile, column, row, view, options, out);
+    BlendTile tile;
+    BlendScratch scratch;
+    clear(tile);
+    HWY_DYNAMIC_DISPATCH(blend_tile)
+    ({splats, tiles.tile(column, row), tiles.tile_reached(column, row),
+      static_cast<float>(column * kTilePx) + kTileHalfPx, static_cast<float>(row * kTilePx) + kTileHalfPx},
+     scratch, tile);
+    const int x0 = column * kTilePx, y0 = row * kTilePx;
+    HWY_DYNAMIC_DISPATCH(write_tile)
+    (tile, {x0, y0, std::min(kTilePx, view.width_px - x0), std::min(kTilePx, view.height_px - y0),
+            view.width_px, options.background, out});
   });
 }
 
 }  // namespace edgesplat::splat
+#endif

@@ -1,21 +1,40 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/splat/tile_lists.hpp"
+
 #include "common/thread/parallel_for.hpp"
+#include "kernels/core/simd.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-namespace edgesplat::splat {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/splat/tile_lists.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
 
-struct Range {
+#include "kernels/splat/lanes-inl.hpp"
+
+#include <hwy/highway.h>
+
+#ifndef EDGESPLAT_KERNELS_SPLAT_TILE_LISTS_ONCE
+#define EDGESPLAT_KERNELS_SPLAT_TILE_LISTS_ONCE
+namespace edgesplat::splat {
+
+/// What one run of splats touches.
+struct TilePart {
+  std::size_t first = 0, last = 0;     ///< splats [first, last)
+  std::vector<std::uint32_t> tiles;    ///< splat by splat
+  std::vector<std::uint16_t> reached;  ///< blocks, one an entry of `tiles`
+  std::vector<std::uint32_t> counts;   ///< of tiles, one a splat
+  std::vector<std::uint32_t> places;   ///< one a tile: first how many, then where the next goes
+};
+
+struct TileRange {
   int first, last;  ///< [first, last)
 };
 
-Range tiles_touched(float centre_px, float half_px, int tiles) {
+inline TileRange tiles_touched(float centre_px, float half_px, int tiles) {
   const auto clamp_tile = [tiles](float px) {
     return static_cast<int>(std::clamp(px / static_cast<float>(kTilePx), -1.0F, static_cast<float>(tiles)));
   };
@@ -25,62 +44,75 @@ Range tiles_touched(float centre_px, float half_px, int tiles) {
   return {std::max(0, low < 0 ? 0 : clamp_tile(low)), high < 0 ? 0 : std::min(tiles, clamp_tile(high) + 1)};
 }
 
-/// Smallest Mahalanobis distance squared between a splat's centre and the pixel centres' box of a tile: the
-/// minimum of a convex quadratic over a rectangle, taken on the rectangle's edges when the centre lies
-/// outside.
-float least_distance2(const Splat& s, float x0, float y0, float x1, float y1) {
-  const float a = s.conic[0], b = s.conic[1], c = s.conic[2];
-  const auto value = [&](float dx, float dy) { return a * dx * dx + 2.0F * b * dx * dy + c * dy * dy; };
-  const bool inside_x = s.u_px >= x0 && s.u_px <= x1;
-  const bool inside_y = s.v_px >= y0 && s.v_px <= y1;
-  if (inside_x && inside_y) return 0.0F;
-  float least = std::numeric_limits<float>::infinity();
-  if (!inside_x) {
-    const float dx = (s.u_px < x0 ? x0 : x1) - s.u_px;
-    const float dy = std::clamp(-b / c * dx, y0 - s.v_px, y1 - s.v_px);
-    least = std::min(least, value(dx, dy));
-  }
-  if (!inside_y) {
-    const float dy = (s.v_px < y0 ? y0 : y1) - s.v_px;
-    const float dx = std::clamp(-b / a * dy, x0 - s.u_px, x1 - s.u_px);
-    least = std::min(least, value(dx, dy));
-  }
-  return least;
-}
-
-bool touches(const Splat& s, int column, int row, float reach2) {
-  const auto x0 = static_cast<float>(column * kTilePx);
-  const auto y0 = static_cast<float>(row * kTilePx);
-  constexpr auto kSpan = static_cast<float>(kTilePx - 1);
-  return least_distance2(s, x0, y0, x0 + kSpan, y0 + kSpan) <= reach2;
-}
-
-/// Splats are dealt out in this many runs whatever the number of threads; the result does not depend on it.
-constexpr std::size_t kParts = 32;
-
-/// What one run of splats touches.
-struct Part {
-  std::size_t first = 0, last = 0;    ///< splats [first, last)
-  std::vector<std::uint32_t> tiles;   ///< splat by splat
-  std::vector<std::uint32_t> counts;  ///< of tiles, one a splat
-  std::vector<std::uint32_t> places;  ///< one a tile: first how many, then where the next goes
+/// First pixels of the blocks of a tile.
+struct BlockCorners {
+  alignas(64) float x[kBlocks];
+  alignas(64) float y[kBlocks];
 };
+constexpr BlockCorners block_corners() {
+  BlockCorners corners{};
+  for (int b = 0; b < kBlocks; ++b) {
+    corners.x[b] = static_cast<float>(b % kBlockPx * kBlockPx);
+    corners.y[b] = static_cast<float>(b / kBlockPx * kBlockPx);
+  }
+  return corners;
+}
+inline constexpr BlockCorners kBlockCorners = block_corners();
 
-void find_tiles(std::span<const Splat> splats, const TileLists& lists, Part& part) {
-  part.places.assign(static_cast<std::size_t>(lists.columns * lists.rows), 0);
+}  // namespace edgesplat::splat
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgesplat::splat::HWY_NAMESPACE {
+
+/// Bit b is set where alpha may reach 1/255 in block b of the tile whose first pixel lies at (left, top) from
+/// the splat's centre: smallest value of the splat's quadratic form over the block's pixel centres. It is
+/// convex, so its minimum over a rectangle lies at the point nearest to the centre in x or in y, the other
+/// coordinate being free.
+HWY_INLINE std::uint32_t blocks_reached(const Splat& s, float left, float top) {
+  const D d;
+  const V span = hn::Set(d, static_cast<float>(kBlockPx - 1)), zero = hn::Zero(d);
+  const V a = hn::Set(d, s.conic[0]), b2 = hn::Set(d, 2.0F * s.conic[1]), c = hn::Set(d, s.conic[2]);
+  const V slope_y = hn::Set(d, -s.conic[1] / s.conic[2]), slope_x = hn::Set(d, -s.conic[1] / s.conic[0]);
+  // A hair more than the blend's own threshold, so that rounding never loses a pixel.
+  const V reach2 = hn::Set(d, s.reach2 * 1.0001F + 1e-4F);
+  std::uint32_t reached = 0;
+  for (int part = 0; part < kParts; ++part) {
+    const std::size_t first = static_cast<std::size_t>(part * kLanes);
+    const V x_low = hn::Add(hn::Set(d, left), hn::Load(d, kBlockCorners.x + first));
+    const V y_low = hn::Add(hn::Set(d, top), hn::Load(d, kBlockCorners.y + first));
+    const V x_high = hn::Add(x_low, span), y_high = hn::Add(y_low, span);
+    const V x = hn::Min(hn::Max(zero, x_low), x_high), y = hn::Min(hn::Max(zero, y_low), y_high);
+    const V y_of_x = hn::Min(hn::Max(hn::Mul(slope_y, x), y_low), y_high);
+    const V x_of_y = hn::Min(hn::Max(hn::Mul(slope_x, y), x_low), x_high);
+    const V at_x = hn::MulAdd(hn::MulAdd(b2, x, hn::Mul(c, y_of_x)), y_of_x, hn::Mul(hn::Mul(a, x), x));
+    const V at_y = hn::MulAdd(hn::MulAdd(b2, y, hn::Mul(a, x_of_y)), x_of_y, hn::Mul(hn::Mul(c, y), y));
+    // What is not a number counts as reached.
+    const auto out = hn::Gt(hn::Min(at_x, at_y), reach2);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::Not(out), bits);
+    reached |= (static_cast<std::uint32_t>(bits[0]) | static_cast<std::uint32_t>(bits[1]) << 8U)
+               << static_cast<unsigned>(part * kLanes);
+  }
+  return reached;
+}
+
+void find_tiles(std::span<const Splat> splats, int columns, int rows, TilePart& part) {
+  part.places.assign(static_cast<std::size_t>(columns * rows), 0);
   part.counts.reserve(part.last - part.first);
   for (std::size_t i = part.first; i < part.last; ++i) {
     const Splat& s = splats[i];
-    const Range columns = tiles_touched(s.u_px, s.half_width_px, lists.columns);
-    const Range rows = tiles_touched(s.v_px, s.half_height_px, lists.rows);
-    // A hair more than the blend's own threshold, so that rounding never loses a pixel.
-    const float reach2 = s.reach2 * 1.0001F + 1e-4F;
+    const TileRange across = tiles_touched(s.u_px, s.half_width_px, columns);
+    const TileRange down = tiles_touched(s.v_px, s.half_height_px, rows);
     const std::size_t before = part.tiles.size();
-    for (int row = rows.first; row < rows.last; ++row) {
-      for (int column = columns.first; column < columns.last; ++column) {
-        if (!touches(s, column, row, reach2)) continue;
-        const auto tile = static_cast<std::uint32_t>(row * lists.columns + column);
+    for (int row = down.first; row < down.last; ++row) {
+      for (int column = across.first; column < across.last; ++column) {
+        const std::uint32_t reached = blocks_reached(s, static_cast<float>(column * kTilePx) - s.u_px,
+                                                     static_cast<float>(row * kTilePx) - s.v_px);
+        if (reached == 0) continue;
+        const auto tile = static_cast<std::uint32_t>(row * columns + column);
         part.tiles.push_back(tile);
+        part.reached.push_back(static_cast<std::uint16_t>(reached));
         ++part.places[tile];
       }
     }
@@ -88,24 +120,37 @@ void find_tiles(std::span<const Splat> splats, const TileLists& lists, Part& par
   }
 }
 
+}  // namespace edgesplat::splat::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgesplat::splat {
+namespace {
+
+HWY_EXPORT(find_tiles);
+
+/// Splats are dealt out in this many runs whatever the number of threads; the result does not depend on it.
+constexpr std::size_t kRuns = 32;
+
 /// Fills lists.starts and turns the counts per part and tile into places: tile by tile, in each tile part by
 /// part, so that a tile keeps the order of the splats.
-void lay_out(std::vector<Part>& parts, TileLists& lists) {
+void lay_out(std::vector<TilePart>& parts, TileLists& lists) {
   const auto tiles = static_cast<std::size_t>(lists.columns * lists.rows);
   lists.starts.resize(tiles + 1);
   std::uint32_t next = 0;
   for (std::size_t t = 0; t < tiles; ++t) {
     lists.starts[t] = next;
-    for (Part& part : parts) next += std::exchange(part.places[t], next);
+    for (TilePart& part : parts) next += std::exchange(part.places[t], next);
   }
   lists.starts[tiles] = next;
   lists.splats.resize(next);
+  lists.reached.resize(next);
   lists.slots.resize(next);
 }
 
-void number_slots(const std::vector<Part>& parts, TileLists& lists) {
+void number_slots(const std::vector<TilePart>& parts, TileLists& lists) {
   std::uint32_t next = 0;
-  for (const Part& part : parts) {
+  for (const TilePart& part : parts) {
     for (const std::uint32_t count : part.counts) {
       lists.splat_starts.push_back(next);
       next += count;
@@ -114,13 +159,14 @@ void number_slots(const std::vector<Part>& parts, TileLists& lists) {
   lists.splat_starts.push_back(next);
 }
 
-void deal_out(Part& part, TileLists& lists) {
+void deal_out(TilePart& part, TileLists& lists) {
   std::uint32_t slot = lists.splat_starts[part.first];
-  auto tile = part.tiles.begin();
+  std::size_t entry = 0;
   for (std::size_t i = part.first; i < part.last; ++i) {
-    for (std::uint32_t k = 0; k < part.counts[i - part.first]; ++k, ++tile, ++slot) {
-      const std::uint32_t place = part.places[*tile]++;
+    for (std::uint32_t k = 0; k < part.counts[i - part.first]; ++k, ++entry, ++slot) {
+      const std::uint32_t place = part.places[part.tiles[entry]]++;
       lists.splats[place] = static_cast<std::uint32_t>(i);
+      lists.reached[place] = part.reached[entry];
       lists.slots[place] = slot;
     }
   }
@@ -132,17 +178,18 @@ TileLists make_tile_lists(std::span<const Splat> splats, int width_px, int heigh
   TileLists lists;
   lists.columns = (width_px + kTilePx - 1) / kTilePx;
   lists.rows = (height_px + kTilePx - 1) / kTilePx;
-  std::vector<Part> parts(kParts);
-  thread::parallel_for(std::size_t{0}, kParts, [&](std::size_t p) {
-    parts[p].first = splats.size() * p / kParts;
-    parts[p].last = splats.size() * (p + 1) / kParts;
-    find_tiles(splats, lists, parts[p]);
+  std::vector<TilePart> parts(kRuns);
+  thread::parallel_for(std::size_t{0}, kRuns, [&](std::size_t p) {
+    parts[p].first = splats.size() * p / kRuns;
+    parts[p].last = splats.size() * (p + 1) / kRuns;
+    HWY_DYNAMIC_DISPATCH(find_tiles)(splats, lists.columns, lists.rows, parts[p]);
   });
   lists.splat_starts.reserve(splats.size() + 1);
   number_slots(parts, lists);
   lay_out(parts, lists);
-  thread::parallel_for(std::size_t{0}, kParts, [&](std::size_t p) { deal_out(parts[p], lists); });
+  thread::parallel_for(std::size_t{0}, kRuns, [&](std::size_t p) { deal_out(parts[p], lists); });
   return lists;
 }
 
 }  // namespace edgesplat::splat
+#endif

@@ -3,25 +3,26 @@
 #include "kernels/train/adam.hpp"
 
 #include "common/base/check.hpp"
-#include "common/thread/parallel_for.hpp"
-#include "kernels/core/simd_variants.hpp"
-#include "kernels/splat/splat_one.hpp"
+#include "kernels/core/simd.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/train/adam.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+
+#include <hwy/highway.h>
+
+#ifndef EDGESPLAT_KERNELS_TRAIN_ADAM_ONCE
+#define EDGESPLAT_KERNELS_TRAIN_ADAM_ONCE
 namespace edgesplat::train {
-namespace {
 
-using gaussian::GaussianCloud;
-
-constexpr std::size_t kBlock = 1024;
-constexpr std::uint16_t kMostSteps = std::numeric_limits<std::uint16_t>::max();
-
+/// One Gaussian; rows of `stride` floats.
 struct RowStep {
   const float* gradient;
-  const float* rates;  ///< [stride]
+  const float* rates;
   float* first;
   float* second;
   float* values;
@@ -30,22 +31,50 @@ struct RowStep {
   float first_correction, second_correction;
 };
 
-EDGESPLAT_INLINE void step_row_inline(const RowStep& s) {
-  for (std::size_t base = 0; base < s.stride; base += ParameterRow::kLanes) {
-    for (std::size_t k = 0; k < ParameterRow::kLanes; ++k) {
-      const std::size_t i = base + k;
-      const float g = s.gradient[i];
-      const float m = s.beta1 * s.first[i] + (1.0F - s.beta1) * g;
-      const float v = s.beta2 * s.second[i] + (1.0F - s.beta2) * g * g;
-      s.first[i] = m;
-      s.second[i] = v;
-      const float root = std::sqrt(v) * s.second_correction;
-      s.values[i] -= s.rates[i] * (m * s.first_correction) / (root + s.epsilon);
-    }
+}  // namespace edgesplat::train
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgesplat::train::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// True where every new value is finite.
+bool step_row(const RowStep& s) {
+  const hn::CappedTag<float, ParameterRow::kLanes> d;
+  using V = hn::Vec<decltype(d)>;
+  const V beta1 = hn::Set(d, s.beta1), rest1 = hn::Set(d, 1.0F - s.beta1);
+  const V beta2 = hn::Set(d, s.beta2), rest2 = hn::Set(d, 1.0F - s.beta2);
+  const V correct1 = hn::Set(d, s.first_correction), correct2 = hn::Set(d, s.second_correction);
+  const V epsilon = hn::Set(d, s.epsilon);
+  V apart = hn::Zero(d);  // x - x is 0 for every finite x and for nothing else
+  for (std::size_t i = 0; i < s.stride; i += hn::Lanes(d)) {
+    const V g = hn::LoadU(d, s.gradient + i);
+    const V m = hn::MulAdd(rest1, g, hn::Mul(beta1, hn::LoadU(d, s.first + i)));
+    const V v = hn::MulAdd(hn::Mul(rest2, g), g, hn::Mul(beta2, hn::LoadU(d, s.second + i)));
+    hn::StoreU(m, d, s.first + i);
+    hn::StoreU(v, d, s.second + i);
+    const V root = hn::MulAdd(hn::Sqrt(v), correct2, epsilon);
+    const V by = hn::Div(hn::Mul(hn::LoadU(d, s.rates + i), hn::Mul(m, correct1)), root);
+    const V value = hn::Sub(hn::LoadU(d, s.values + i), by);
+    apart = hn::Add(apart, hn::Sub(value, value));
+    hn::StoreU(value, d, s.values + i);
   }
+  return hn::AllTrue(d, hn::Eq(apart, hn::Zero(d)));
 }
 
-EDGESPLAT_SIMD_VARIANTS(step_row, (const RowStep& s), (s))
+}  // namespace edgesplat::train::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgesplat::train {
+namespace {
+
+HWY_EXPORT(step_row);
+
+using gaussian::GaussianCloud;
+
+constexpr std::uint16_t kMostSteps = std::numeric_limits<std::uint16_t>::max();
 
 void load_row(const GaussianCloud& cloud, std::size_t row, float* out) {
   std::copy_n(&cloud.means_m[3 * row], 3, out + ParameterRow::kMean);
@@ -125,30 +154,33 @@ void Adam::reset_row(std::size_t row) {
   steps_[row] = 0;
 }
 
-void Adam::step(const GaussianGradients& gradients, const LearningRates& rates, GaussianCloud& cloud) {
-  EDGESPLAT_CHECK(cloud.size() == size() && cloud.sh_degree == sh_degree_ && gradients.stride == stride_,
-                  "gradients and cloud of this optimiser");
-  float rate_row[ParameterRow::kMaxStride];
-  fill_rates(rates, sh_degree_, rate_row);
-  const auto step_row = fastest_step_row();
-  const int used = static_cast<int>(ParameterRow::size(sh_degree_));
-  const std::size_t blocks = (gradients.rows.size() + kBlock - 1) / kBlock;
-  thread::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    const std::size_t last = std::min(gradients.rows.size(), (b + 1) * kBlock);
-    float values[ParameterRow::kMaxStride] = {};
-    float row_rates[ParameterRow::kMaxStride];
-    std::copy_n(rate_row, ParameterRow::kMaxStride, row_rates);
-    for (std::size_t i = b * kBlock; i < last; ++i) {
-      const std::size_t row = gradients.rows[i];
-      if (steps_[row] < kMostSteps) ++steps_[row];
-      const auto& at_step = by_steps_[std::min<std::size_t>(steps_[row], by_steps_.size() - 1)];
-      std::fill_n(row_rates + ParameterRow::kMean, 3, rates.mean_m * at_step[2]);
-      load_row(cloud, row, values);
-      step_row({gradients.row(i).data(), row_rates, &first_[row * stride_], &second_[row * stride_], values,
-                stride_, options_.beta1, options_.beta2, options_.epsilon, at_step[0], at_step[1]});
-      if (splat::all_finite(values, used)) store_row(values, row, cloud);
+void Adam::step(std::span<const std::uint32_t> rows, std::span<const float> values,
+                const LearningRates& rates, GaussianCloud& cloud) {
+  EDGESPLAT_CHECK(
+      cloud.size() == size() && cloud.sh_degree == sh_degree_ && values.size() == rows.size() * stride_,
+      "gradients and cloud of this optimiser");
+  constexpr std::size_t kAhead = 4;  // rows are seldom neighbours
+  float row_rates[ParameterRow::kMaxStride];
+  fill_rates(rates, sh_degree_, row_rates);
+  float row_values[ParameterRow::kMaxStride] = {};
+  const auto step_row = HWY_DYNAMIC_DISPATCH(step_row);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t row = rows[i];
+    const std::size_t ahead = rows[std::min(i + kAhead, rows.size() - 1)];
+    for (std::size_t k = 0; k < stride_; k += ParameterRow::kLanes) {
+      __builtin_prefetch(&first_[ahead * stride_ + k], 1);
+      __builtin_prefetch(&second_[ahead * stride_ + k], 1);
     }
-  });
+    if (steps_[row] < kMostSteps) ++steps_[row];
+    const auto& at_step = by_steps_[std::min<std::size_t>(steps_[row], by_steps_.size() - 1)];
+    std::fill_n(row_rates + ParameterRow::kMean, 3, rates.mean_m * at_step[2]);
+    load_row(cloud, row, row_values);
+    if (step_row({&values[i * stride_], row_rates, &first_[row * stride_], &second_[row * stride_],
+                  row_values, stride_, options_.beta1, options_.beta2, options_.epsilon, at_step[0],
+                  at_step[1]})) {
+      store_row(row_values, row, cloud);
+    }
+  }
 }
 
 std::size_t Adam::bytes() const {
@@ -156,3 +188,4 @@ std::size_t Adam::bytes() const {
 }
 
 }  // namespace edgesplat::train
+#endif

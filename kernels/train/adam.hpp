@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/gaussian/gaussian_cloud.hpp"
-#include "kernels/train/gaussian_backward.hpp"
+#include "kernels/train/parameter_row.hpp"
 
 #include <array>
 #include <cstddef>
@@ -48,9 +48,11 @@ class Adam {
   void keep_rows(std::span<const std::uint32_t> rows);
   /// Forgets what is known of one row.
   void reset_row(std::size_t row);
-  /// Moves the parameters of every row of `gradients` one step down and sets quaternions to unit length.
-  /// `cloud` has as many rows as this. A row whose result is not finite stays as it was.
-  void step(const GaussianGradients& gradients, const LearningRates& rates, gaussian::GaussianCloud& cloud);
+  /// Moves the parameters of `rows` one step down and sets quaternions to unit length. `values` [rows,stride]
+  /// are the gradients, laid out as ParameterRow; `cloud` has as many rows as this. A row whose result is not
+  /// finite stays as it was. Several threads may call it at once, each with rows of its own.
+  void step(std::span<const std::uint32_t> rows, std::span<const float> values, const LearningRates& rates,
+            gaussian::GaussianCloud& cloud);
   [[nodiscard]] std::uint32_t steps_of(std::size_t row) const { return steps_[row]; }
   [[nodiscard]] std::size_t bytes() const;
 

@@ -4,159 +4,261 @@
 
 #include "common/base/check.hpp"
 #include "common/thread/parallel_for.hpp"
-#include "kernels/core/simd_variants.hpp"
-#include "kernels/splat/pixel_alpha.hpp"
-#include "kernels/splat/tile_blocks.hpp"
+#include "kernels/core/simd.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/train/blend_backward.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+
+#include "kernels/core/reciprocal-inl.hpp"
+#include "kernels/splat/lanes-inl.hpp"
+#include "kernels/splat/splat_one.hpp"
+
+#include <hwy/highway.h>
+
+#ifndef EDGESPLAT_KERNELS_TRAIN_BLEND_BACKWARD_ONCE
+#define EDGESPLAT_KERNELS_TRAIN_BLEND_BACKWARD_ONCE
 namespace edgesplat::train {
-namespace {
 
-using splat::kTilePx;
-using splat::Splat;
-
-using splat::kBlockPixels;
-using splat::TilePlane;
-
-/// A tile's pixels, channel by channel so that a block of 16 is a vector.
-struct Tile {
-  TilePlane transmittance;  ///< 0 once the pixel is full
-  TilePlane
-      rest;  ///< dL by picture times what the splats still to come and the background add; 0 once it is full
-  TilePlane by_red, by_green, by_blue, by_depth;
+/// A tile's pixels.
+struct ReverseTile {
+  splat::TilePlane transmittance;  ///< negative once the pixel is full
+  /// dL by picture times what the splats still to come and the background add.
+  splat::TilePlane rest;
+  splat::TilePlane by_red, by_green, by_blue, by_depth;
 };
 
-/// Sums over the pixels of one tile for one splat: moments about its centre of g, dL by the exponent of its
-/// falloff, and dL by what it adds.
+/// Sums over the pixels of one tile for one splat: moments about the tile's centre of g, dL by the exponent
+/// of its falloff, and dL by what it adds.
 enum Sum { kG, kGx, kGy, kGxx, kGxy, kGyy, kRed, kGreen, kBlue, kDepth, kWeight, kUsed, kSums = 16 };
-/// Place by place in the block, to be added up at the end.
-using LaneSums = float[kSums][kBlockPixels];
 
-/// One splat on block k, whose first pixel lies at (left, top) from its centre. With T the transmittance
-/// before it, q = dL by picture times what it would add at weight 1, R the rest behind it: dL/dalpha = T q -
-/// R / (1 - alpha).
-EDGESPLAT_INLINE void add_block(const Splat& s, const splat::Falloff f, float left, float top, int k,
-                                Tile& tile, LaneSums& sums) {
-  for (int i = 0; i < kBlockPixels; ++i) {
-    const float dx = left + splat::kPixelX[i];
-    const float dy = top + splat::kPixelY[i];
-    const float raw = splat::raw_alpha(f, dx, dy);
-    const float alpha = splat::blended_alpha(raw);
-    const float before = tile.transmittance[k][i];
-    const float after = before * (1.0F - alpha);
-    const bool takes = after >= splat::kMinTransmittance;
-    const float weight = takes ? alpha * before : 0.0F;
-    const float by_red = tile.by_red[k][i], by_green = tile.by_green[k][i];
-    const float by_blue = tile.by_blue[k][i], by_depth = tile.by_depth[k][i];
-    const float q = std::fma(by_red, s.rgb[0],
-                             std::fma(by_green, s.rgb[1], std::fma(by_blue, s.rgb[2], by_depth * s.depth_m)));
-    const float rest = takes ? std::fma(-weight, q, tile.rest[k][i]) : 0.0F;
-    const float by_alpha = std::fma(before, q, -rest / (1.0F - alpha));
-    // alpha is 0 where it is skipped and constant where it is cut.
-    const float g = (takes && raw < splat::kMaxAlpha ? alpha : 0.0F) * by_alpha;
-    const float gx = g * dx;
-    const float gy = g * dy;
-    sums[kG][i] += g;
-    sums[kGx][i] += gx;
-    sums[kGy][i] += gy;
-    sums[kGxx][i] = std::fma(gx, dx, sums[kGxx][i]);
-    sums[kGxy][i] = std::fma(gx, dy, sums[kGxy][i]);
-    sums[kGyy][i] = std::fma(gy, dy, sums[kGyy][i]);
-    sums[kRed][i] = std::fma(weight, by_red, sums[kRed][i]);
-    sums[kGreen][i] = std::fma(weight, by_green, sums[kGreen][i]);
-    sums[kBlue][i] = std::fma(weight, by_blue, sums[kBlue][i]);
-    sums[kDepth][i] = std::fma(weight, by_depth, sums[kDepth][i]);
-    sums[kWeight][i] += weight;
-    tile.rest[k][i] = rest;
-    tile.transmittance[k][i] = takes ? after : 0.0F;
-  }
-}
+/// Where a tile's pixels come from.
+struct TileSource {
+  int x0_px, y0_px;         ///< first pixel
+  int width_px, height_px;  ///< of what lies in the picture
+  int stride_px;            ///< the picture's width
+  const Pictures& drawn;
+  const PictureGradients& by_picture;
+};
 
-/// Sums of all quantities at once, always in the same order: halves onto halves. The loops stay loops: only
-/// then does g++ make shuffles of whole vectors of them.
-EDGESPLAT_INLINE void add_up(const LaneSums& lanes, TileSums& out) {
-  float half[8 * kSums];
-  float quarter[4 * kSums];
-#pragma GCC unroll 1
-  for (int k = 0; k < kSums; ++k) {
-    for (int i = 0; i < 8; ++i) half[8 * k + i] = lanes[k][i] + lanes[k][i + 8];
-  }
-#pragma GCC unroll 1
-  for (int k = 0; k < kSums; ++k) {
-    for (int i = 0; i < 4; ++i) quarter[4 * k + i] = half[8 * k + i] + half[8 * k + i + 4];
-  }
-#pragma GCC unroll 1
-  for (int k = 0; k < kSums; ++k) {
-    const float* q = quarter + 4 * k;
-    out.sums[k] = (q[0] + q[2]) + (q[1] + q[3]);
-  }
-}
-
-struct TileTask {
-  std::span<const Splat> splats;
+struct ReverseTask {
+  std::span<const splat::Splat> splats;
   std::span<const std::uint32_t> list;
+  std::span<const std::uint16_t> reached;
   std::span<const std::uint32_t> slots;
   std::span<TileSums> by_slot;
-  float x0_px, y0_px;
+  float centre_x_px, centre_y_px;
 };
 
-EDGESPLAT_INLINE void reverse_tile_inline(const TileTask& task, Tile& tile) {
-  constexpr std::size_t kCheckEvery = 16;
-  std::uint32_t active = (1U << splat::kBlocks) - 1;
-  LaneSums sums = {};
+}  // namespace edgesplat::train
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgesplat::train::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using splat::HWY_NAMESPACE::D;
+using splat::HWY_NAMESPACE::kLanes;
+using splat::HWY_NAMESPACE::kParts;
+using splat::HWY_NAMESPACE::V;
+
+/// Place by place in a register, to be added up when all blocks are through.
+struct LaneSums {
+  V g, gx, gy, gxx, gxy, gyy, red, green, blue, depth, weight;
+};
+
+/// One splat on a block. With T the transmittance before it, q = dL by picture times what it would add at
+/// weight 1, R the rest behind it: dL/dalpha = T q - R / (1 - alpha).
+HWY_INLINE void add_block(const splat::TileSplat& s, int block, ReverseTile& tile, LaneSums& sums) {
+  const D d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0F);
+  const V most = hn::Set(d, splat::kMaxAlpha), least = hn::Set(d, splat::kMinAlpha);
+  const V least_left = hn::Set(d, splat::kMinTransmittance), sign = hn::Set(d, -0.0F);
+  for (int part = 0; part < kParts; ++part) {
+    const auto at = splat::HWY_NAMESPACE::places_of(d, block, part);
+    const std::size_t first = static_cast<std::size_t>(part * kLanes);
+    const V raw = splat::HWY_NAMESPACE::raw_alpha_lanes(d, s, at);
+    const V alpha = hn::IfThenElseZero(hn::Ge(raw, least), hn::Min(raw, most));
+    const V before = hn::Load(d, tile.transmittance.at[block] + first);
+    const V after = hn::NegMulAdd(alpha, before, before);
+    const auto takes = hn::Ge(after, least_left);
+    const V weight = hn::IfThenElse(takes, hn::Mul(alpha, before), zero);
+    const V by_red = hn::Load(d, tile.by_red.at[block] + first);
+    const V by_green = hn::Load(d, tile.by_green.at[block] + first);
+    const V by_blue = hn::Load(d, tile.by_blue.at[block] + first);
+    const V by_depth = hn::Load(d, tile.by_depth.at[block] + first);
+    V q = hn::Mul(by_red, hn::Set(d, s.rgb[0]));
+    q = hn::MulAdd(by_green, hn::Set(d, s.rgb[1]), q);
+    q = hn::MulAdd(by_blue, hn::Set(d, s.rgb[2]), q);
+    q = hn::MulAdd(by_depth, hn::Set(d, s.depth_m), q);
+    const V rest = hn::NegMulAdd(weight, q, hn::Load(d, tile.rest.at[block] + first));
+    const V by_alpha =
+        hn::NegMulAdd(rest, core::HWY_NAMESPACE::reciprocal(d, hn::Sub(one, alpha)), hn::Mul(before, q));
+    // alpha is 0 where it is skipped and constant where it is cut.
+    const V g = hn::IfThenElseZero(hn::And(takes, hn::Lt(raw, most)), hn::Mul(alpha, by_alpha));
+    sums.g = hn::Add(sums.g, g);
+    sums.gx = hn::MulAdd(g, at.x, sums.gx);
+    sums.gy = hn::MulAdd(g, at.y, sums.gy);
+    sums.gxx = hn::MulAdd(g, at.xx, sums.gxx);
+    sums.gxy = hn::MulAdd(g, at.xy, sums.gxy);
+    sums.gyy = hn::MulAdd(g, at.yy, sums.gyy);
+    sums.red = hn::MulAdd(weight, by_red, sums.red);
+    sums.green = hn::MulAdd(weight, by_green, sums.green);
+    sums.blue = hn::MulAdd(weight, by_blue, sums.blue);
+    sums.depth = hn::MulAdd(weight, by_depth, sums.depth);
+    sums.weight = hn::Add(sums.weight, weight);
+    hn::Store(rest, d, tile.rest.at[block] + first);
+    hn::Store(hn::IfThenElse(takes, after, hn::Or(before, sign)), d, tile.transmittance.at[block] + first);
+  }
+}
+
+/// Four sums of a register each: across each quarter by interleaving, then quarter onto quarter.
+HWY_INLINE void sum_four(V a, V b, V c, V e, float* out) {
+#if HWY_TARGET == HWY_SCALAR
+  out[0] = hn::GetLane(a), out[1] = hn::GetLane(b), out[2] = hn::GetLane(c), out[3] = hn::GetLane(e);
+#else
+  const D d;
+  const hn::RepartitionToWide<D> wide;
+  const V ab = hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
+  const V ce = hn::Add(hn::InterleaveLower(d, c, e), hn::InterleaveUpper(d, c, e));
+  const auto wide_ab = hn::BitCast(wide, ab), wide_ce = hn::BitCast(wide, ce);
+  const V all = hn::Add(hn::BitCast(d, hn::InterleaveLower(wide, wide_ab, wide_ce)),
+                        hn::BitCast(d, hn::InterleaveUpper(wide, wide_ab, wide_ce)));
+  const hn::CappedTag<float, 4> quarter;
+#if HWY_TARGET <= HWY_AVX3
+  const hn::Half<D> half;
+  const hn::Half<decltype(half)> last;
+  const auto halves = hn::Add(hn::LowerHalf(half, all), hn::UpperHalf(half, all));
+  hn::StoreU(hn::Add(hn::LowerHalf(last, halves), hn::UpperHalf(last, halves)), quarter, out);
+#elif HWY_TARGET <= HWY_AVX2
+  const hn::Half<D> half;
+  hn::StoreU(hn::Add(hn::LowerHalf(half, all), hn::UpperHalf(half, all)), quarter, out);
+#else
+  hn::StoreU(all, quarter, out);
+#endif
+#endif
+}
+
+HWY_INLINE void add_up(const LaneSums& lanes, TileSums& out) {
+  sum_four(lanes.g, lanes.gx, lanes.gy, lanes.gxx, out.sums + kG);
+  sum_four(lanes.gxy, lanes.gyy, lanes.red, lanes.green, out.sums + kGxy);
+  sum_four(lanes.blue, lanes.depth, lanes.weight, hn::Zero(D()), out.sums + kBlue);
+}
+
+/// From moments about the tile's centre to those about the splat's, which lies at (u, v) from it.
+HWY_INLINE void recentre(float u, float v, TileSums& out) {
+  float* m = out.sums;
+  m[kGxx] += u * (u * m[kG] - 2.0F * m[kGx]);
+  m[kGxy] += u * v * m[kG] - u * m[kGy] - v * m[kGx];
+  m[kGyy] += v * (v * m[kG] - 2.0F * m[kGy]);
+  m[kGx] -= u * m[kG];
+  m[kGy] -= v * m[kG];
+}
+
+/// A run of pixels in one row of a block before the first splat.
+template <typename Run>
+HWY_INLINE void load_run(Run run, const TileSource& from, std::size_t at, int block, int pixel,
+                         ReverseTile& tile) {
+  using R = hn::Vec<Run>;
+  const auto i = static_cast<std::size_t>(pixel);
+  const auto value_of = [&](std::span<const float> picture) HWY_ATTR {
+    return picture.empty() ? hn::Zero(run) : hn::LoadU(run, &picture[at]);
+  };
+  R by_red, by_green, by_blue, red, green, blue;
+  hn::LoadInterleaved3(run, &from.by_picture.colour[3 * at], by_red, by_green, by_blue);
+  hn::LoadInterleaved3(run, &from.drawn.colour[3 * at], red, green, blue);
+  const R by_depth = value_of(from.by_picture.depth_sum);
+  const R seen_through = hn::Sub(hn::Set(run, 1.0F), hn::LoadU(run, &from.drawn.alpha[at]));
+  // All that the splats and the background add; alpha is 1 - transmittance.
+  R rest = hn::Mul(by_red, red);
+  rest = hn::MulAdd(by_green, green, rest);
+  rest = hn::MulAdd(by_blue, blue, rest);
+  rest = hn::MulAdd(by_depth, hn::LoadU(run, &from.drawn.depth_sum_m[at]), rest);
+  rest = hn::NegMulAdd(value_of(from.by_picture.alpha), seen_through, rest);
+  hn::StoreU(by_red, run, tile.by_red.at[block] + i);
+  hn::StoreU(by_green, run, tile.by_green.at[block] + i);
+  hn::StoreU(by_blue, run, tile.by_blue.at[block] + i);
+  hn::StoreU(by_depth, run, tile.by_depth.at[block] + i);
+  hn::StoreU(rest, run, tile.rest.at[block] + i);
+  hn::StoreU(hn::Set(run, 1.0F), run, tile.transmittance.at[block] + i);
+}
+
+/// Pixels beyond the picture's edge are full from the start.
+void load_tile(const TileSource& from, ReverseTile& tile) {
+  const hn::CappedTag<float, splat::kBlockPx> run;
+  const hn::CappedTag<float, 1> single;
+  const int step = static_cast<int>(hn::Lanes(run));
+  if (from.width_px < splat::kTilePx || from.height_px < splat::kTilePx) tile = {};
+  for (int y = 0; y < from.height_px; ++y) {
+    const std::size_t row =
+        static_cast<std::size_t>(from.y0_px + y) * static_cast<std::size_t>(from.stride_px) +
+        static_cast<std::size_t>(from.x0_px);
+    int x = 0;
+    for (; x + step <= from.width_px; x += step) {
+      load_run(run, from, row + static_cast<std::size_t>(x), splat::block_of(x, y), splat::pixel_of(x, y),
+               tile);
+    }
+    for (; x < from.width_px; ++x) {
+      load_run(single, from, row + static_cast<std::size_t>(x), splat::block_of(x, y), splat::pixel_of(x, y),
+               tile);
+    }
+  }
+}
+
+/// Bit b is set where some pixel of block b still takes splats: those have a transmittance above 0.
+std::uint32_t open_blocks(const splat::TilePlane& transmittance) {
+  const D d;
+  std::uint32_t blocks = 0;
+  for (unsigned b = 0; b < splat::kBlocks; ++b) {
+    for (int part = 0; part < kParts; ++part) {
+      const V left = hn::Load(d, transmittance.at[b] + static_cast<std::size_t>(part * kLanes));
+      if (!hn::AllTrue(d, hn::Le(left, hn::Zero(d)))) blocks |= 1U << b;
+    }
+  }
+  return blocks;
+}
+
+void reverse_tile(const ReverseTask& task, ReverseTile& tile) {
+  constexpr std::size_t kCheckEvery = 16;  // looking which blocks are full costs about one splat
+  constexpr std::size_t kAhead = 8;        // a tile's splats lie all over memory
+  const V zero = hn::Zero(D());
+  std::uint32_t open = open_blocks(tile.transmittance);
   std::size_t i = 0;
-  for (; i < task.list.size() && active != 0; ++i) {
-    if (i + splat::kPrefetchAhead < task.list.size()) {
-      __builtin_prefetch(&task.splats[task.list[i + splat::kPrefetchAhead]]);
-      __builtin_prefetch(&task.by_slot[task.slots[i + splat::kPrefetchAhead]], 1);
+  for (; i < task.list.size() && open != 0; ++i) {
+    if (i + kAhead < task.list.size()) {
+      __builtin_prefetch(&task.splats[task.list[i + kAhead]]);
+      __builtin_prefetch(&task.by_slot[task.slots[i + kAhead]], 1);
     }
-    const Splat s = task.splats[task.list[i]];  // a copy, see blend_cpu.cpp
-    const splat::Falloff falloff = splat::falloff_of(s);
-    for (int k = 0; k < kUsed; ++k) std::fill_n(sums[k], kBlockPixels, 0.0F);
-    for (std::uint32_t todo = splat::blocks_reached(s, task.x0_px, task.y0_px) & active; todo != 0;
-         todo &= todo - 1) {
-      const int k = std::countr_zero(todo);
-      add_block(s, falloff, task.x0_px - s.u_px + 4.0F * splat::kPixelX[k],
-                task.y0_px - s.v_px + 4.0F * splat::kPixelY[k], k, tile, sums);
-    }
-    add_up(sums, task.by_slot[task.slots[i]]);
-    if (i % kCheckEvery == kCheckEvery - 1) active = splat::blocks_active(tile.transmittance);
+    const splat::Splat& source = task.splats[task.list[i]];
+    splat::TileSplat s;
+    splat::set_tile_splat(source, task.centre_x_px, task.centre_y_px, s);
+    LaneSums sums = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+    for (std::uint32_t todo = task.reached[i] & open; todo != 0; todo &= todo - 1)
+      add_block(s, std::countr_zero(todo), tile, sums);
+    TileSums& out = task.by_slot[task.slots[i]];
+    add_up(sums, out);
+    recentre(source.u_px - task.centre_x_px, source.v_px - task.centre_y_px, out);
+    if (i % kCheckEvery == kCheckEvery - 1) open = open_blocks(tile.transmittance);
   }
   for (; i < task.list.size(); ++i) task.by_slot[task.slots[i]] = {};
 }
 
-EDGESPLAT_SIMD_VARIANTS(reverse_tile, (const TileTask& task, Tile& tile), (task, tile))
+}  // namespace edgesplat::train::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
 
-/// The tile's pixels before the first splat. Those beyond the picture's edge take no gradient.
-void load_tile(int column, int row, const splat::View& view, const Pictures& drawn,
-               const PictureGradients& by_picture, Tile& tile) {
-  tile = {};
-  const int x0 = column * kTilePx;
-  const int y0 = row * kTilePx;
-  for (int y = 0; y < std::min(kTilePx, view.height_px - y0); ++y) {
-    for (int x = 0; x < std::min(kTilePx, view.width_px - x0); ++x) {
-      const auto pixel = static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(view.width_px) +
-                         static_cast<std::size_t>(x0 + x);
-      const float* by_colour = &by_picture.colour[3 * pixel];
-      const float* colour = &drawn.colour[3 * pixel];
-      const float by_depth = by_picture.depth_sum.empty() ? 0.0F : by_picture.depth_sum[pixel];
-      const float by_alpha = by_picture.alpha.empty() ? 0.0F : by_picture.alpha[pixel];
-      const int k = splat::block_of(x, y);
-      const int i = splat::pixel_of(x, y);
-      tile.by_red[k][i] = by_colour[0];
-      tile.by_green[k][i] = by_colour[1];
-      tile.by_blue[k][i] = by_colour[2];
-      tile.by_depth[k][i] = by_depth;
-      // All that the splats and the background add; alpha is 1 - transmittance.
-      tile.rest[k][i] = by_colour[0] * colour[0] + by_colour[1] * colour[1] + by_colour[2] * colour[2] +
-                        by_depth * drawn.depth_sum_m[pixel] - by_alpha * (1.0F - drawn.alpha[pixel]);
-      tile.transmittance[k][i] = 1.0F;
-    }
-  }
-}
+#if HWY_ONCE
+namespace edgesplat::train {
+namespace {
+
+HWY_EXPORT(load_tile);
+HWY_EXPORT(reverse_tile);
+
+using splat::kTilePx;
+using splat::Splat;
 
 SplatBackward finish(const Splat& s, std::span<const TileSums> parts) {
   float m[kSums] = {};
@@ -189,15 +291,20 @@ std::span<const SplatBackward> blend_backward(std::span<const Splat> splats, con
                   "pictures of the view's size");
   scratch.by_slot.resize(tiles.splats.size());
   scratch.by_splat.resize(splats.size());
-  const auto reverse_tile = fastest_reverse_tile();
   thread::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
     const int column = t % tiles.columns;
     const int row = t / tiles.columns;
-    Tile tile;
-    load_tile(column, row, view, drawn, by_picture, tile);
-    reverse_tile({splats, tiles.tile(column, row), tiles.tile_slots(column, row), scratch.by_slot,
-                  static_cast<float>(column * kTilePx), static_cast<float>(row * kTilePx)},
-                 tile);
+    ReverseTile tile;
+    const int x0 = column * kTilePx, y0 = row * kTilePx;
+    HWY_DYNAMIC_DISPATCH(load_tile)
+    ({x0, y0, std::min(kTilePx, view.width_px - x0), std::min(kTilePx, view.height_px - y0), view.width_px,
+      drawn, by_picture},
+     tile);
+    HWY_DYNAMIC_DISPATCH(reverse_tile)
+    ({splats, tiles.tile(column, row), tiles.tile_reached(column, row), tiles.tile_slots(column, row),
+      scratch.by_slot, static_cast<float>(column * kTilePx) + splat::kTileHalfPx,
+      static_cast<float>(row * kTilePx) + splat::kTileHalfPx},
+     tile);
   });
   constexpr std::size_t kBlock = 1024;
   thread::parallel_for(std::size_t{0}, (splats.size() + kBlock - 1) / kBlock, [&](std::size_t b) {
@@ -211,3 +318,4 @@ std::span<const SplatBackward> blend_backward(std::span<const Splat> splats, con
 }
 
 }  // namespace edgesplat::train
+#endif

@@ -4,33 +4,56 @@
 
 #include "common/base/check.hpp"
 #include "common/thread/parallel_for.hpp"
+#include "kernels/core/simd.hpp"
 #include "kernels/splat/splat_one.hpp"
 #include "kernels/train/gaussian_lanes.hpp"
-#include "kernels/train/sh_backward_math.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <utility>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/train/gaussian_backward.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+
+#include "kernels/train/sh_backward_math.hpp"
+
+#include <hwy/highway.h>
+
+#ifndef EDGESPLAT_KERNELS_TRAIN_GAUSSIAN_BACKWARD_ONCE
+#define EDGESPLAT_KERNELS_TRAIN_GAUSSIAN_BACKWARD_ONCE
 namespace edgesplat::train {
-namespace {
 
-constexpr std::size_t kBlock = 1024;
-constexpr auto kUnseen = std::numeric_limits<std::uint32_t>::max();
-
-using Pose = std::array<double, 6>;
-
-struct Source {
+struct ReverseSource {
   const splat::GaussianSpans& gaussians;
-  const splat::View& view;
+  std::span<const splat::Splat> splats;
+  std::span<const SplatBackward> by_splat;
   splat::CameraT<float> camera;
+  std::array<float, 3> position_m;  ///< of the camera, in map
 };
 
-EDGESPLAT_SIMD_VARIANTS(reverse_lanes, (const splat::CameraT<float>& camera, GaussianLanes& lanes),
-                        (camera, lanes))
+/// Rows of one block and where their gradients go.
+struct ReverseRows {
+  std::span<const std::uint32_t> splats;
+  std::span<float> values;
+  std::span<Sighting> sightings;
+  PoseGradient& pose;
+};
 
-void load_lane(const splat::GaussianSpans& g, const splat::Splat& s, const SplatGradient<float>& by,
-               std::size_t lane, GaussianLanes& lanes) {
+}  // namespace edgesplat::train
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgesplat::train::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kTerms = 16;  // of SH degree 3; lower degrees are padded
+
+HWY_INLINE void load_lane(const splat::GaussianSpans& g, const splat::Splat& s,
+                          const SplatGradient<float>& by, std::size_t lane, GaussianLanes& lanes) {
   const std::size_t row = s.gaussian;
   for (std::size_t k = 0; k < 3; ++k) {
     lanes.mean[k][lane] = g.means_m[3 * row + k];
@@ -44,20 +67,63 @@ void load_lane(const splat::GaussianSpans& g, const splat::Splat& s, const Splat
   lanes.by_depth[lane] = by.depth;
 }
 
+/// dL by the SH coefficients of one Gaussian, from those by its colour, and by each term of the basis: what
+/// the colour takes from the direction. `sh` and `by_sh` are [terms,3].
+HWY_INLINE void reverse_basis(int degree, const float* sh, const float* basis, const float* by_rgb,
+                              float* by_sh, float* by_basis) {
+  const hn::CappedTag<float, kTerms> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const std::size_t floats = 3 * static_cast<std::size_t>((degree + 1) * (degree + 1));
+  alignas(64) float padded[3 * kTerms];
+  const bool whole = floats == 3 * kTerms;
+  if (!whole) {
+    std::memset(padded, 0, sizeof(padded));
+    std::memcpy(padded, sh, floats * sizeof(float));
+    sh = padded;
+  }
+  alignas(64) float out[3 * kTerms];
+  const auto r = hn::Set(d, by_rgb[0]), g = hn::Set(d, by_rgb[1]), b = hn::Set(d, by_rgb[2]);
+  for (std::size_t first = 0; first < kTerms; first += lanes) {
+    hn::Vec<decltype(d)> red, green, blue;
+    hn::LoadInterleaved3(d, sh + 3 * first, red, green, blue);
+    hn::Store(hn::MulAdd(red, r, hn::MulAdd(green, g, hn::Mul(blue, b))), d, by_basis + first);
+    const auto term = hn::Load(d, basis + first);
+    hn::StoreInterleaved3(hn::Mul(term, r), hn::Mul(term, g), hn::Mul(term, b), d,
+                          (whole ? by_sh : out) + 3 * first);
+  }
+  if (!whole) std::memcpy(by_sh, out, floats * sizeof(float));
+}
+
 /// The colour's share of one Gaussian: fills its SH and adds to its mean and to the pose.
-void reverse_colour(const Source& source, const splat::Splat& s, const SplatGradient<float>& by, float* out,
-                    float* pose) {
+HWY_INLINE void reverse_colour(const ReverseSource& source, const splat::Splat& s,
+                               const SplatGradient<float>& by, float* out, float* pose) {
   const splat::GaussianSpans& g = source.gaussians;
+  // A channel that the forward pass cut at 0 has no gradient.
+  float by_rgb[3];
+  for (int c = 0; c < 3; ++c) by_rgb[c] = s.rgb[c] > 0.0F ? by.rgb[c] : 0.0F;
+  if (g.sh_degree == 0) {  // the same from everywhere
+    constexpr float kConstant = 0.28209479177387814F;
+    for (int c = 0; c < 3; ++c) out[ParameterRow::kSh + static_cast<std::size_t>(c)] = kConstant * by_rgb[c];
+    return;
+  }
   const float* mean = &g.means_m[3 * std::size_t{s.gaussian}];
-  const float* position = source.view.position.data();
+  const float* position = source.position_m.data();
   const float offset[3] = {mean[0] - position[0], mean[1] - position[1], mean[2] - position[2]};
+  const float length = std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
+  const float towards[3] = {offset[0] / length, offset[1] / length, offset[2] / length};
+  alignas(64) float basis[kTerms] = {};
+  alignas(64) float by_basis[kTerms];
+  splat::sh_basis(g.sh_degree, towards[0], towards[1], towards[2], basis);
+  reverse_basis(g.sh_degree, &g.sh[g.sh_floats_each() * s.gaussian], basis, by_rgb, out + ParameterRow::kSh,
+                by_basis);
+  float by_towards[3];
+  sh_direction_backward(g.sh_degree, towards[0], towards[1], towards[2], by_basis, by_towards);
+  const float radial = by_towards[0] * towards[0] + by_towards[1] * towards[1] + by_towards[2] * towards[2];
   float by_offset[3];
-  colour_backward(g.sh_degree, offset, &g.sh[g.sh_floats_each() * s.gaussian], s.rgb, by.rgb,
-                  out + ParameterRow::kSh, by_offset);
-  if (g.sh_degree == 0) return;  // the same from everywhere
-  const float by_position[3] = {-by_offset[0], -by_offset[1], -by_offset[2]};
+  for (int k = 0; k < 3; ++k) by_offset[k] = (by_towards[k] - towards[k] * radial) / length;
   // The camera's position -R^T t goes with the pose as well: dr turns it by position x dr, dt moves it by
   // -R^T dt.
+  const float by_position[3] = {-by_offset[0], -by_offset[1], -by_offset[2]};
   float turn[3];
   cross(by_position, position, turn);
   const float* r = source.camera.rotation;
@@ -68,10 +134,22 @@ void reverse_colour(const Source& source, const splat::Splat& s, const SplatGrad
   }
 }
 
+/// x - x is 0 for every finite x and for nothing else.
+HWY_INLINE bool all_finite(const float* values, std::size_t whole_vectors_of_16) {
+  const hn::CappedTag<float, 16> d;
+  auto apart = hn::Zero(d);
+  for (std::size_t i = 0; i < whole_vectors_of_16; i += hn::Lanes(d)) {
+    const auto x = hn::LoadU(d, values + i);
+    apart = hn::Add(apart, hn::Sub(x, x));
+  }
+  return hn::AllTrue(d, hn::Eq(apart, hn::Zero(d)));
+}
+
 /// Fills `out` (a ParameterRow) from one lane and adds to the pose's gradient; zeros where a value is not
 /// finite.
-void store_lane(const Source& source, const splat::Splat& s, const SplatGradient<float>& by,
-                const GaussianLanes& lanes, std::size_t lane, float* out, Pose& pose) {
+HWY_INLINE void store_lane(const ReverseSource& source, const splat::Splat& s, const SplatGradient<float>& by,
+                           const GaussianLanes& lanes, std::size_t lane, float* out, PoseGradient& pose) {
+  const std::size_t stride = ParameterRow::stride(source.gaussians.sh_degree);
   for (std::size_t k = 0; k < 3; ++k) {
     out[ParameterRow::kMean + k] = lanes.by_mean[k][lane];
     out[ParameterRow::kLogScale + k] = lanes.by_log_scale[k][lane];
@@ -82,90 +160,128 @@ void store_lane(const Source& source, const splat::Splat& s, const SplatGradient
   for (std::size_t k = 0; k < 6; ++k) by_pose[k] = lanes.pose[k][lane];
   reverse_colour(source, s, by, out, by_pose);
   const std::size_t used = ParameterRow::size(source.gaussians.sh_degree);
-  std::fill(out + used, out + ParameterRow::stride(source.gaussians.sh_degree), 0.0F);
-  if (!splat::all_finite(out, static_cast<int>(used)) || !splat::all_finite(by_pose, 6)) {
-    std::fill_n(out, used, 0.0F);
+  std::fill(out + used, out + stride, 0.0F);
+  float pose_apart = 0.0F;
+  for (const float value : by_pose) pose_apart += value - value;
+  if (!all_finite(out, stride) || !(pose_apart == 0.0F)) {
+    std::fill_n(out, stride, 0.0F);
     return;
   }
   for (std::size_t k = 0; k < 6; ++k) pose[k] += static_cast<double>(by_pose[k]);
 }
 
-struct Splats {
-  std::span<const splat::Splat> splats;
-  std::span<const SplatBackward> by_splat;
-};
-
-/// Which splat shows each row of the cloud, and the rows that one does.
-struct Index {
-  std::vector<std::uint32_t> rows;    ///< ascending
-  std::vector<std::uint32_t> splats;  ///< [rows]
-};
-
-/// Only splats that some pixel shows: those hidden behind others have no gradient, and stay as they are.
-Index by_row(const Splats& in, std::size_t gaussians) {
-  std::vector<std::uint32_t> splat_of(gaussians, kUnseen);
-  for (std::size_t i = 0; i < in.splats.size(); ++i) {
-    if (in.by_splat[i].weight > 0.0F) splat_of[in.splats[i].gaussian] = static_cast<std::uint32_t>(i);
-  }
-  Index index;
-  index.rows.reserve(in.splats.size());
-  index.splats.reserve(in.splats.size());
-  for (std::size_t row = 0; row < gaussians; ++row) {
-    if (splat_of[row] == kUnseen) continue;
-    index.rows.push_back(static_cast<std::uint32_t>(row));
-    index.splats.push_back(splat_of[row]);
-  }
-  return index;
+/// The shared maths inlined to the last call: only then do its loops become vector operations.
+[[gnu::flatten]] void reverse_lanes(const splat::CameraT<float>& camera, GaussianLanes& lanes) {
+  reverse_lanes_inline(camera, lanes);
 }
 
-void reverse_block(const Source& source, const Splats& in, const Index& index, std::size_t block,
-                   GaussianGradients& out, Pose& pose) {
+void reverse_rows(const ReverseSource& source, const ReverseRows& rows) {
   constexpr std::size_t kLanes = GaussianLanes::kLanes;
-  const auto reverse_lanes = fastest_reverse_lanes();
-  const std::size_t last = std::min(index.rows.size(), (block + 1) * kBlock);
+  const std::size_t stride = ParameterRow::stride(source.gaussians.sh_degree);
   GaussianLanes lanes{};
-  for (std::size_t first = block * kBlock; first < last; first += kLanes) {
-    const std::size_t count = std::min(kLanes, last - first);
+  for (std::size_t first = 0; first < rows.splats.size(); first += kLanes) {
+    const std::size_t count = std::min(kLanes, rows.splats.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
       // Splats lie in the order of depth, so all over memory.
-      const std::size_t ahead = index.splats[std::min(first + i + kLanes, last - 1)];
-      __builtin_prefetch(&in.splats[ahead]);
-      __builtin_prefetch(&in.by_splat[ahead]);
-      const std::size_t k = index.splats[first + i];
-      load_lane(source.gaussians, in.splats[k], in.by_splat[k].gradient, i, lanes);
+      const std::size_t ahead = rows.splats[std::min(first + i + kLanes, rows.splats.size() - 1)];
+      __builtin_prefetch(&source.splats[ahead]);
+      __builtin_prefetch(&source.by_splat[ahead]);
+      const std::size_t k = rows.splats[first + i];
+      load_lane(source.gaussians, source.splats[k], source.by_splat[k].gradient, i, lanes);
     }
     reverse_lanes(source.camera, lanes);
     for (std::size_t i = 0; i < count; ++i) {
-      const splat::Splat& s = in.splats[index.splats[first + i]];
-      const SplatBackward& by = in.by_splat[index.splats[first + i]];
-      store_lane(source, s, by.gradient, lanes, i, &out.values[(first + i) * out.stride], pose);
+      const splat::Splat& s = source.splats[rows.splats[first + i]];
+      const SplatBackward& by = source.by_splat[rows.splats[first + i]];
+      store_lane(source, s, by.gradient, lanes, i, &rows.values[(first + i) * stride], rows.pose);
       const float centre = std::sqrt(by.gradient.u * by.gradient.u + by.gradient.v * by.gradient.v);
-      out.sightings[first + i] = {centre, by.weight, std::max(s.half_width_px, s.half_height_px)};
+      rows.sightings[first + i] = {centre, by.weight, std::max(s.half_width_px, s.half_height_px)};
     }
   }
 }
 
+}  // namespace edgesplat::train::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgesplat::train {
+namespace {
+
+HWY_EXPORT(reverse_rows);
+
+constexpr auto kUnseen = std::numeric_limits<std::uint32_t>::max();
+
+/// Which splat shows each row of the cloud. Only splats that some pixel shows: those hidden behind others
+/// have no gradient, and stay as they are.
+void find_rows(std::span<const splat::Splat> splats, std::span<const SplatBackward> by_splat,
+               std::size_t gaussians, GaussianBackwardScratch& scratch) {
+  scratch.splat_of.assign(gaussians, kUnseen);
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    if (by_splat[i].weight > 0.0F) scratch.splat_of[splats[i].gaussian] = static_cast<std::uint32_t>(i);
+  }
+  scratch.rows.clear();
+  scratch.splats.clear();
+  for (std::size_t row = 0; row < gaussians; ++row) {
+    if (scratch.splat_of[row] == kUnseen) continue;
+    scratch.rows.push_back(static_cast<std::uint32_t>(row));
+    scratch.splats.push_back(scratch.splat_of[row]);
+  }
+}
+
+/// One block's gradients: in the cache, thread by thread.
+struct BlockMemory {
+  alignas(64) float values[kGradientBlock * ParameterRow::kMaxStride];
+  Sighting sightings[kGradientBlock];
+};
+
 }  // namespace
 
-void gaussian_backward(const splat::GaussianSpans& gaussians, const splat::View& view,
-                       std::span<const splat::Splat> splats, std::span<const SplatBackward> by_splat,
-                       GaussianGradients& out) {
+PoseGradient gaussian_backward_in_blocks(const splat::GaussianSpans& gaussians, const splat::View& view,
+                                         std::span<const splat::Splat> splats,
+                                         std::span<const SplatBackward> by_splat,
+                                         GaussianBackwardScratch& scratch, const BlockTaker& take) {
   EDGESPLAT_CHECK(gaussians.consistent() && splats.size() == by_splat.size(), "a gradient for every splat");
-  out.stride = ParameterRow::stride(gaussians.sh_degree);
-  Index index = by_row({splats, by_splat}, gaussians.size());
-  out.values.resize(index.rows.size() * out.stride);
-  out.sightings.resize(index.rows.size());
-  const std::size_t blocks = (index.rows.size() + kBlock - 1) / kBlock;
-  std::vector<Pose> poses(blocks, Pose{});
-  const Source source{gaussians, view, splat::camera_of(view)};
+  find_rows(splats, by_splat, gaussians.size(), scratch);
+  const std::size_t stride = ParameterRow::stride(gaussians.sh_degree);
+  const std::size_t blocks = (scratch.rows.size() + kGradientBlock - 1) / kGradientBlock;
+  std::vector<PoseGradient> poses(blocks, PoseGradient{});
+  const ReverseSource source{gaussians, splats, by_splat, splat::camera_of(view), view.position};
   thread::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    reverse_block(source, {splats, by_splat}, index, b, out, poses[b]);
+    thread_local BlockMemory memory;
+    const std::size_t first = b * kGradientBlock;
+    const std::size_t count = std::min(kGradientBlock, scratch.rows.size() - first);
+    const std::span values(memory.values, count * stride);
+    const std::span sightings(memory.sightings, count);
+    HWY_DYNAMIC_DISPATCH(reverse_rows)
+    (source, {std::span(scratch.splats).subspan(first, count), values, sightings, poses[b]});
+    take({b, std::span(scratch.rows).subspan(first, count), values, sightings});
   });
-  out.pose = {};
-  for (const Pose& pose : poses) {
-    for (std::size_t k = 0; k < pose.size(); ++k) out.pose[k] += pose[k];
+  PoseGradient pose{};
+  for (const PoseGradient& part : poses) {
+    for (std::size_t k = 0; k < pose.size(); ++k) pose[k] += part[k];
   }
-  out.rows = std::move(index.rows);
+  return pose;
+}
+
+GaussianGradients gaussian_backward(const splat::GaussianSpans& gaussians, const splat::View& view,
+                                    std::span<const splat::Splat> splats,
+                                    std::span<const SplatBackward> by_splat) {
+  GaussianGradients out;
+  out.stride = ParameterRow::stride(gaussians.sh_degree);
+  out.values.resize(splats.size() * out.stride);
+  out.sightings.resize(splats.size());
+  GaussianBackwardScratch scratch;
+  out.pose = gaussian_backward_in_blocks(gaussians, view, splats, by_splat, scratch,
+                                         [&out](const GradientBlock& block) {
+                                           const std::size_t first = block.number * kGradientBlock;
+                                           std::ranges::copy(block.values, &out.values[first * out.stride]);
+                                           std::ranges::copy(block.sightings, &out.sightings[first]);
+                                         });
+  out.rows = std::move(scratch.rows);
+  out.values.resize(out.rows.size() * out.stride);
+  out.sightings.resize(out.rows.size());
+  return out;
 }
 
 }  // namespace edgesplat::train
+#endif

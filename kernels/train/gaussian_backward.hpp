@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,26 +22,54 @@ struct Sighting {
   float radius_px;           ///< larger half of its box on the screen
 };
 
-/// dL by the parameters of the Gaussians that a picture shows (in front of the others in some pixel, at
-/// least), and by its pose.
+/// dL by a camera's pose: dr, dt with camera_from_map ⊞ (dr, dt) = (rotation Exp(dr), translation + dt).
+using PoseGradient = std::array<double, 6>;
+
+/// dL by the parameters of some Gaussians that a picture shows (in front of the others in some pixel, at
+/// least).
+struct GradientBlock {
+  std::size_t number;                   ///< of the block
+  std::span<const std::uint32_t> rows;  ///< [B] ascending
+  std::span<float> values;  ///< [B,stride] laid out as ParameterRow, padding 0; the taker may change them
+  std::span<const Sighting> sightings;  ///< [B]
+};
+/// Called from several threads, each time with other rows; a block's memory is used again afterwards.
+using BlockTaker = std::function<void(const GradientBlock&)>;
+
+/// Rows of a block, less in the last one.
+inline constexpr std::size_t kGradientBlock = 256;
+
+/// Memory that one call leaves for the next.
+struct GaussianBackwardScratch {
+  std::vector<std::uint32_t> splat_of;  ///< [N]
+  std::vector<std::uint32_t> rows;      ///< [V] Gaussians that the picture shows, ascending: a result
+  std::vector<std::uint32_t> splats;    ///< [V] the splat of each
+};
+
+/// Reverse of splat::project: from gradients by the splats (blend_backward, same order as `splats`) to those
+/// by the Gaussians, block by block while they are in the cache. A taker may move the Gaussians of its block.
+/// A Gaussian whose gradient is not finite gets zeros. `scratch.rows` is complete before the first block is
+/// taken. Deterministic whatever the number of threads.
+PoseGradient gaussian_backward_in_blocks(const splat::GaussianSpans& gaussians, const splat::View& view,
+                                         std::span<const splat::Splat> splats,
+                                         std::span<const SplatBackward> by_splat,
+                                         GaussianBackwardScratch& scratch, const BlockTaker& take);
+
+/// All blocks in one piece.
 struct GaussianGradients {
   std::size_t stride = 0;
   std::vector<std::uint32_t> rows;  ///< [V] ascending
-  std::vector<float> values;        ///< [V,stride] laid out as ParameterRow, padding 0
+  std::vector<float> values;        ///< [V,stride]
   std::vector<Sighting> sightings;  ///< [V]
-  std::array<double, 6>
-      pose{};  ///< dr, dt: camera_from_map ⊞ (dr, dt) = (rotation Exp(dr), translation + dt)
+  PoseGradient pose{};
 
   [[nodiscard]] std::span<const float> row(std::size_t i) const {
     return std::span(values).subspan(i * stride, stride);
   }
 };
-
-/// Reverse of splat::project into `out`, whose memory is used again: from gradients by the splats
-/// (blend_backward, same order as `splats`) to those by the Gaussians. A Gaussian whose gradient is not
-/// finite gets zeros. Deterministic whatever the number of threads.
-void gaussian_backward(const splat::GaussianSpans& gaussians, const splat::View& view,
-                       std::span<const splat::Splat> splats, std::span<const SplatBackward> by_splat,
-                       GaussianGradients& out);
+[[nodiscard]] GaussianGradients gaussian_backward(const splat::GaussianSpans& gaussians,
+                                                  const splat::View& view,
+                                                  std::span<const splat::Splat> splats,
+                                                  std::span<const SplatBackward> by_splat);
 
 }  // namespace edgesplat::train

@@ -4,19 +4,27 @@
 
 #include "common/base/check.hpp"
 #include "common/thread/parallel_for.hpp"
-#include "kernels/train/ssim_strip.hpp"
+#include "kernels/core/simd.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/train/ssim.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+
+#include "kernels/train/ssim_strip-inl.hpp"
+
+#include <hwy/highway.h>
+
+#ifndef EDGESPLAT_KERNELS_TRAIN_SSIM_ONCE
+#define EDGESPLAT_KERNELS_TRAIN_SSIM_ONCE
 namespace edgesplat::train {
-namespace {
 
-using namespace ssim_strip;  // NOLINT(google-build-using-namespace): this file is its other half
-
-/// One piece of the picture: kStripPx by kStripRows, less at the edges.
-struct Strip {
+/// One piece of the picture: kSsimStripPx by kSsimStripRows, less at the edges.
+struct SsimStrip {
   const ColourPair& pair;
   int x0_px, y0_px;
   int rows;
@@ -24,144 +32,212 @@ struct Strip {
   std::span<float> by_drawn;  ///< empty: only the value
 };
 
-struct Buffers {
-  float x[kIn], y[kIn], squares[kIn], product[kIn];
-  Ring<kMoments, std::size_t{kMiddle}> moments;
-  float moment_rows[kMoments][kMiddle];
-  float weight[kMiddle];
-  float slope_rows[kSlopes][kMiddle];
-  Ring<kSlopes, std::size_t{kOut}> slopes;
-  float out[kSlopes][kOut];
-  float sum[kMiddle];       ///< of the similarity, column by column
-  float not_ours[kMiddle];  ///< the same of rows that another piece adds up
+/// Local moments: means of x and y, of x^2 + y^2 and of x y.
+enum SsimMoment { kMeanX, kMeanY, kSquares, kProduct, kMoments };
+/// Slopes by the mean of x, by that of x^2 + y^2 and by that of x y.
+enum SsimSlope { kBySum, kBySquares, kByProduct, kSlopes };
+
+struct SsimBuffers {
+  alignas(64) float in[kMoments][whole_lanes(kSsimIn)];
+  alignas(64) float moments[kMoments][kSsimRing][kSsimMiddle];
+  alignas(64) float weight[kSsimBatch][kSsimMiddle];
+  alignas(64) float slope_rows[kSsimBatch][kSlopes][whole_lanes(kSsimMiddle + 2 * kSsimHalo)];
+  alignas(64) float slopes[kSlopes][kSsimRing][kSsimOut];
+  alignas(64) float sum[kSsimMiddle];  ///< of the similarity, column by column
 };
 
 /// The part of a row of `floats` starting at float `first` of the picture that lies in it.
-struct Overlap {
+struct SsimOverlap {
   int from, to;  ///< in the row: [from, to)
 };
-EDGESPLAT_INLINE Overlap overlap(int first, int floats, int width_px) {
+inline SsimOverlap overlap(int first, int floats, int width_px) {
   return {std::max(0, -first), std::min(floats, 3 * width_px - first)};
 }
 
-EDGESPLAT_INLINE float weight_at(const ColourPair& pair, int y, int column) {
+inline float weight_at(const ColourPair& pair, int y, int column) {
   return pair.weight.empty() ? 1.0F : pair.weight[static_cast<std::size_t>(y * pair.width_px + column / 3)];
 }
 
-/// Row y of both pictures into b.x and b.y, zero beyond the edges.
-EDGESPLAT_INLINE void load_pictures(const Strip& s, int y, Buffers& b) {
-  std::fill_n(b.x, kIn, 0.0F);
-  std::fill_n(b.y, kIn, 0.0F);
-  if (y >= 0 && y < s.pair.height_px) {
-    const int first = 3 * s.x0_px - 2 * kHalo;
-    const Overlap inside = overlap(first, kIn, s.pair.width_px);
-    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(3 * s.pair.width_px);
-    for (int i = inside.from; i < inside.to; ++i) {
-      const std::size_t at = row + static_cast<std::size_t>(first + i);
-      b.x[i] = s.pair.drawn[at];
-      b.y[i] = s.pair.target[at];
+/// Row y of both pictures, times the weights, zero beyond the edges.
+inline void load_pictures(const SsimStrip& s, int y, SsimBuffers& b) {
+  float* x = b.in[kMeanX];
+  float* t = b.in[kMeanY];
+  const int first = 3 * s.x0_px - 2 * kSsimHalo;
+  const SsimOverlap inside = overlap(first, kSsimIn, s.pair.width_px);
+  if (y < 0 || y >= s.pair.height_px) {
+    std::fill_n(x, kSsimIn, 0.0F);
+    std::fill_n(t, kSsimIn, 0.0F);
+    return;
+  }
+  for (float* row : {x, t}) {
+    std::fill_n(row, inside.from, 0.0F);
+    std::fill(row + inside.to, row + kSsimIn, 0.0F);
+  }
+  const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(3 * s.pair.width_px) +
+                         static_cast<std::size_t>(first + inside.from);
+  const auto count = static_cast<std::size_t>(inside.to - inside.from);
+  std::copy_n(&s.pair.drawn[at], count, x + inside.from);
+  std::copy_n(&s.pair.target[at], count, t + inside.from);
+  if (s.pair.weight.empty()) return;
+  for (int i = inside.from; i < inside.to; ++i) {
+    const float w = weight_at(s.pair, y, first + i);
+    x[i] *= w;
+    t[i] *= w;
+  }
+}
+
+inline void load_weight(const SsimStrip& s, int y, float* weight) {
+  std::fill_n(weight, kSsimMiddle, 0.0F);
+  if (y < 0 || y >= s.pair.height_px) return;
+  const int first = 3 * s.x0_px - kSsimHalo;
+  const SsimOverlap inside = overlap(first, kSsimOut + 2 * kSsimHalo, s.pair.width_px);
+  for (int i = inside.from; i < inside.to; ++i) weight[i] = weight_at(s.pair, y, first + i);
+}
+
+}  // namespace edgesplat::train
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgesplat::train::HWY_NAMESPACE {
+
+constexpr int kStep = static_cast<int>(hn::MaxLanes(D()));
+
+/// Rows `first` and following of the moments, of the picture's rows from y on.
+void moment_rows(const SsimStrip& s, int first, int y, SsimBuffers& b) {
+  const D d;
+  for (int j = 0; j < kSsimBatch; ++j) {
+    load_pictures(s, y + j, b);
+    for (int i = 0; i < whole_lanes(kSsimIn); i += kStep) {
+      const V x = hn::Load(d, b.in[kMeanX] + i), t = hn::Load(d, b.in[kMeanY] + i);
+      hn::Store(hn::MulAdd(x, x, hn::Mul(t, t)), d, b.in[kSquares] + i);
+      hn::Store(hn::Mul(x, t), d, b.in[kProduct] + i);
     }
-    if (!s.pair.weight.empty()) {
-      for (int i = inside.from; i < inside.to; ++i) {
-        const float w = weight_at(s.pair, y, first + i);
-        b.x[i] *= w;
-        b.y[i] *= w;
+    for (int q = 0; q < kMoments; ++q) along_row(b.in[q], kSsimMiddle, b.moments[q][(first + j) % kSsimRing]);
+  }
+}
+
+/// The similarity of the rows from y on, from the rows of moments from `window` on, and its slopes filtered
+/// along the row, which become rows `first` and following.
+void middle_rows(const SsimStrip& s, int window, int first, int y, SsimBuffers& b) {
+  const D d;
+  const float* rows[kMoments][kSsimWindow];
+  for (int q = 0; q < kMoments; ++q) {
+    for (int r = 0; r < kSsimWindow; ++r) rows[q][r] = b.moments[q][(window + r) % kSsimRing];
+  }
+  V ours[kSsimBatch];
+  for (int j = 0; j < kSsimBatch; ++j) {
+    load_weight(s, y + j, b.weight[j]);
+    // What other pieces add up as well counts there.
+    ours[j] = hn::Set(d, y + j >= s.y0_px && y + j < s.y0_px + s.rows ? 1.0F : 0.0F);
+  }
+  for (int i = 0; i < kSsimMiddle; i += kStep) {
+    V moments[kMoments][kSsimBatch];
+    for (int q = 0; q < kMoments; ++q) across_rows(rows[q], i, moments[q]);
+    V sum = hn::Load(d, b.sum + i);
+    for (int j = 0; j < kSsimBatch; ++j) {
+      const Similarity at =
+          similarity(moments[kMeanX][j], moments[kMeanY][j], moments[kSquares][j], moments[kProduct][j]);
+      const V weight = hn::Load(d, b.weight[j] + i);
+      sum = hn::MulAdd(hn::Mul(weight, ours[j]), at.value, sum);
+      hn::Store(hn::Mul(weight, at.by_sum), d, b.slope_rows[j][kBySum] + i);
+      hn::Store(hn::Mul(weight, at.by_squares), d, b.slope_rows[j][kBySquares] + i);
+      hn::Store(hn::Mul(weight, at.by_product), d, b.slope_rows[j][kByProduct] + i);
+    }
+    hn::Store(sum, d, b.sum + i);
+  }
+  if (s.by_drawn.empty()) return;
+  for (int j = 0; j < kSsimBatch; ++j) {
+    for (int q = 0; q < kSlopes; ++q)
+      along_row(b.slope_rows[j][q], kSsimOut, b.slopes[q][(first + j) % kSsimRing]);
+  }
+}
+
+/// Adds the gradient of the rows from y on, from the rows of slopes from `window` on.
+void gradient_rows(const SsimStrip& s, int window, int y, SsimBuffers& b) {
+  const D d;
+  const float* rows[kSlopes][kSsimWindow];
+  for (int q = 0; q < kSlopes; ++q) {
+    for (int r = 0; r < kSsimWindow; ++r) rows[q][r] = b.slopes[q][(window + r) % kSsimRing];
+  }
+  const int count = std::min(kSsimBatch, s.y0_px + s.rows - y);
+  const int floats = std::min(kSsimOut, 3 * (s.pair.width_px - s.x0_px));
+  const V scale = hn::Set(d, s.scale), two = hn::Set(d, 2.0F);
+  for (int i = 0; i < floats; i += kStep) {
+    V slopes[kSlopes][kSsimBatch];
+    for (int q = 0; q < kSlopes; ++q) across_rows(rows[q], i, slopes[q]);
+    const auto some = static_cast<std::size_t>(std::min(kStep, floats - i));
+    const auto mask = hn::FirstN(d, some);
+    for (int j = 0; j < count; ++j) {
+      const std::size_t at = (static_cast<std::size_t>(y + j) * static_cast<std::size_t>(s.pair.width_px) +
+                              static_cast<std::size_t>(s.x0_px)) *
+                                 3 +
+                             static_cast<std::size_t>(i);
+      const auto load = [&](const float* from) HWY_ATTR {
+        return some == static_cast<std::size_t>(kStep) ? hn::LoadU(d, from) : hn::MaskedLoad(mask, d, from);
+      };
+      V weight = hn::Set(d, 1.0F);
+      if (!s.pair.weight.empty()) {
+        alignas(64) float weights[kSsimLanes] = {};
+        for (int k = 0; k < static_cast<int>(some); ++k)
+          weights[k] = weight_at(s.pair, y + j, 3 * s.x0_px + i + k);
+        weight = hn::Load(d, weights);
+      }
+      const V drawn = load(&s.pair.drawn[at]), target = load(&s.pair.target[at]);
+      const V of_products =
+          hn::MulAdd(hn::Mul(two, drawn), slopes[kBySquares][j], hn::Mul(target, slopes[kByProduct][j]));
+      const V by = hn::Mul(hn::Mul(scale, weight), hn::MulAdd(weight, of_products, slopes[kBySum][j]));
+      const V sum = hn::Add(load(&s.by_drawn[at]), by);
+      if (some == static_cast<std::size_t>(kStep)) {
+        hn::StoreU(sum, d, &s.by_drawn[at]);
+      } else {
+        hn::BlendedStore(sum, mask, d, &s.by_drawn[at]);
       }
     }
   }
-  for (int i = 0; i < kIn; ++i) {
-    b.squares[i] = b.x[i] * b.x[i] + b.y[i] * b.y[i];
-    b.product[i] = b.x[i] * b.y[i];
+}
+
+/// Everything of one piece; its similarities end up in b.sum. Row 0 of the moments lies so far above the
+/// piece that a batch of them completes a batch of the similarity kLag back, and that one a batch of the
+/// gradient kLag back again.
+void run_strip(const SsimStrip& s, SsimBuffers& b) {
+  constexpr int kLag = kSsimLead / kSsimBatch;
+  constexpr int kRise = kSsimRadius + kSsimSkip;  // of row 0 of one stage above row 0 of the next
+  const bool with_gradient = !s.by_drawn.empty();
+  const int middle_y = with_gradient ? s.y0_px - kRise : s.y0_px;
+  const int batches = (s.rows + kSsimBatch - 1) / kSsimBatch + (with_gradient ? 2 * kLag : kLag);
+  std::fill_n(b.sum, kSsimMiddle, 0.0F);
+  for (int n = 0; n < batches; ++n) {
+    moment_rows(s, n * kSsimBatch, middle_y - kRise + n * kSsimBatch, b);
+    const int middle = (n - kLag) * kSsimBatch;
+    if (middle < 0) continue;
+    middle_rows(s, middle + kSsimSkip, middle, middle_y + middle, b);
+    const int out = middle - kLag * kSsimBatch;
+    if (with_gradient && out >= 0) gradient_rows(s, out + kSsimSkip, s.y0_px + out, b);
   }
 }
 
-EDGESPLAT_INLINE void load_weight(const Strip& s, int y, Buffers& b) {
-  std::fill_n(b.weight, kMiddle, 0.0F);
-  if (y < 0 || y >= s.pair.height_px) return;
-  const int first = 3 * s.x0_px - kHalo;
-  const Overlap inside = overlap(first, kMiddle, s.pair.width_px);
-  for (int i = inside.from; i < inside.to; ++i) b.weight[i] = weight_at(s.pair, y, first + i);
-}
+}  // namespace edgesplat::train::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
 
-/// The similarity of row y from the newest rows of moments, and its slopes filtered along the row.
-EDGESPLAT_INLINE void middle_row(const Strip& s, int newest, int y, Buffers& b) {
-  const float* rows[kTaps];
-  const float* moments[kMoments];
-  float* slopes[kSlopes];
-  for (int q = 0; q < kMoments; ++q) {
-    b.moments.window(newest, q, rows);
-    across_rows(rows, kMiddle, b.moment_rows[q]);
-    moments[q] = b.moment_rows[q];
-  }
-  for (int q = 0; q < kSlopes; ++q) slopes[q] = b.slope_rows[q];
-  load_weight(s, y, b);
-  const bool ours = y >= s.y0_px && y < s.y0_px + s.rows;
-  similarity(moments, b.weight, kMiddle, ours ? b.sum : b.not_ours, slopes);
-  if (s.by_drawn.empty()) return;
-  const int number = newest - 2 * kRadius;
-  for (int q = 0; q < kSlopes; ++q) along_row(b.slope_rows[q], kOut, b.slopes.row(number, q));
-}
+#if HWY_ONCE
+namespace edgesplat::train {
+namespace {
 
-/// Adds the gradient of row y from the newest rows of slopes.
-EDGESPLAT_INLINE void gradient_row(const Strip& s, int newest, int y, Buffers& b) {
-  const float* rows[kTaps];
-  for (int q = 0; q < kSlopes; ++q) {
-    b.slopes.window(newest, q, rows);
-    across_rows(rows, kOut, b.out[q]);
-  }
-  const int floats = std::min(kOut, 3 * (s.pair.width_px - s.x0_px));
-  const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(s.pair.width_px) +
-                          static_cast<std::size_t>(s.x0_px)) *
-                         3;
-  const float* __restrict drawn = s.pair.drawn.data() + at;
-  const float* __restrict target = s.pair.target.data() + at;
-  float* __restrict by = s.by_drawn.data() + at;
-  if (s.pair.weight.empty()) {
-    for (int i = 0; i < floats; ++i) {
-      by[i] += s.scale *
-               (b.out[kBySum][i] + 2.0F * drawn[i] * b.out[kBySquares][i] + target[i] * b.out[kByProduct][i]);
-    }
-    return;
-  }
-  for (int i = 0; i < floats; ++i) {
-    const float w = weight_at(s.pair, y, 3 * s.x0_px + i);
-    by[i] +=
-        s.scale * w *
-        (b.out[kBySum][i] + w * (2.0F * drawn[i] * b.out[kBySquares][i] + target[i] * b.out[kByProduct][i]));
-  }
-}
-
-EDGESPLAT_INLINE void run_strip_inline(const Strip& s, Buffers& b) {
-  const int last = s.rows + (s.by_drawn.empty() ? 3 : 4) * kRadius;
-  for (int n = s.by_drawn.empty() ? kRadius : 0; n < last; ++n) {
-    load_pictures(s, s.y0_px - 2 * kRadius + n, b);
-    const float* in[kMoments] = {b.x, b.y, b.squares, b.product};
-    for (int q = 0; q < kMoments; ++q) along_row(in[q], kMiddle, b.moments.row(n, q));
-    const int middle = n - 2 * kRadius;
-    const int first_middle = s.by_drawn.empty() ? kRadius : 0;
-    if (middle < first_middle) continue;
-    middle_row(s, n, s.y0_px - kRadius + middle, b);
-    const int out = middle - 2 * kRadius;
-    if (out >= 0 && !s.by_drawn.empty()) gradient_row(s, middle, s.y0_px + out, b);
-  }
-}
-
-EDGESPLAT_SIMD_VARIANTS(run_strip, (const Strip& s, Buffers& b), (s, b))
+HWY_EXPORT(run_strip);
 
 /// Sum of weight times similarity over all pixels and channels.
 double run(const ColourPair& pair, float scale, std::span<float> by_drawn) {
-  const int columns = (pair.width_px + kStripPx - 1) / kStripPx;
-  const int rows = (pair.height_px + kStripRows - 1) / kStripRows;
+  const int columns = (pair.width_px + kSsimStripPx - 1) / kSsimStripPx;
+  const int rows = (pair.height_px + kSsimStripRows - 1) / kSsimStripRows;
   std::vector<double> sums(static_cast<std::size_t>(columns * rows), 0.0);
-  const auto run_strip = fastest_run_strip();
   thread::parallel_for(0, columns * rows, [&](int i) {
-    const int y0 = i / columns * kStripRows;
-    const Strip strip{pair,    i % columns * kStripPx, y0, std::min(kStripRows, pair.height_px - y0), scale,
-                      by_drawn};
-    const auto buffers = std::make_unique<Buffers>();
-    run_strip(strip, *buffers);
+    const int y0 = i / columns * kSsimStripRows;
+    const SsimStrip strip{
+        pair, i % columns * kSsimStripPx, y0, std::min(kSsimStripRows, pair.height_px - y0), scale, by_drawn};
+    thread_local const auto buffers = std::make_unique<SsimBuffers>();
+    HWY_DYNAMIC_DISPATCH(run_strip)(strip, *buffers);
     double sum = 0.0;
-    for (int k = kHalo; k < kHalo + kOut; ++k) sum += static_cast<double>(buffers->sum[k]);
+    for (int k = kSsimHalo; k < kSsimHalo + kSsimOut; ++k) sum += static_cast<double>(buffers->sum[k]);
     sums[static_cast<std::size_t>(i)] = sum;
   });
   double sum = 0.0;
@@ -185,3 +261,4 @@ double ssim_backward(const ColourPair& pair, float factor, std::span<float> by_d
 }
 
 }  // namespace edgesplat::train
+#endif

@@ -12,15 +12,25 @@
 namespace edgesplat::train {
 namespace {
 
-GaussianGradients gradients_for(const gaussian::GaussianCloud& cloud, std::vector<std::uint32_t> rows,
-                                float value) {
-  GaussianGradients out;
+/// Rows of one value each.
+struct Gradients {
+  std::size_t stride;
+  std::vector<std::uint32_t> rows;
+  std::vector<float> values;
+};
+Gradients gradients_for(const gaussian::GaussianCloud& cloud, std::vector<std::uint32_t> rows, float value) {
+  Gradients out;
   out.stride = ParameterRow::stride(cloud.sh_degree);
   out.values.resize(rows.size() * out.stride);
   for (std::size_t i = 0; i < rows.size(); ++i)
     std::fill_n(&out.values[i * out.stride], ParameterRow::size(cloud.sh_degree), value);
   out.rows = std::move(rows);
   return out;
+}
+
+void step(Adam& adam, const Gradients& gradients, const LearningRates& rates,
+          gaussian::GaussianCloud& cloud) {
+  adam.step(gradients.rows, gradients.values, rates, cloud);
 }
 
 TEST(Adam, FollowsTheFormula) {
@@ -38,7 +48,7 @@ TEST(Adam, FollowsTheFormula) {
   const auto before = cloud;
   for (int t = 1; t <= 20; ++t) {
     const double g = 0.3 * std::sin(t);
-    adam.step(gradients_for(cloud, {1}, static_cast<float>(g)), rates, cloud);
+    step(adam, gradients_for(cloud, {1}, static_cast<float>(g)), rates, cloud);
     m = 0.9 * m + 0.1 * g;
     v = 0.999 * v + 0.001 * g * g;
     moved += m / (1.0 - std::pow(0.9, t)) / (std::sqrt(v / (1.0 - std::pow(0.999, t))) + 1e-15);
@@ -62,9 +72,9 @@ TEST(Adam, ARowsFirstStepIsItsRateWheneverItComes) {
   Adam adam(0, {});
   adam.resize(2);
   const LearningRates rates{.mean_m = 0.01F};
-  for (int t = 0; t < 500; ++t) adam.step(gradients_for(cloud, {0}, 1.0F), rates, cloud);
+  for (int t = 0; t < 500; ++t) step(adam, gradients_for(cloud, {0}, 1.0F), rates, cloud);
   const float before = cloud.means_m[3];
-  adam.step(gradients_for(cloud, {1}, 1e-4F), rates, cloud);
+  step(adam, gradients_for(cloud, {1}, 1e-4F), rates, cloud);
   EXPECT_NEAR(cloud.means_m[3] - before, -0.01F, 1e-6F);
 }
 
@@ -76,7 +86,7 @@ TEST(Adam, AMeansRateFallsWithTheStepsOfItsGaussian) {
   float before = 0.0F;
   for (int t = 0; t < 101; ++t) {
     before = cloud.means_m[0];
-    adam.step(gradients_for(cloud, {0}, 1.0F), {.mean_m = 0.01F}, cloud);
+    step(adam, gradients_for(cloud, {0}, 1.0F), {.mean_m = 0.01F}, cloud);
   }
   EXPECT_NEAR(before - cloud.means_m[0], 0.001F, 1e-5F);
 }
@@ -86,7 +96,7 @@ TEST(Adam, KeepsQuaternionsOfUnitLength) {
   auto cloud = test::random_cloud(random, {.count = 1});
   Adam adam(0, {});
   adam.resize(1);
-  for (int t = 0; t < 50; ++t) adam.step(gradients_for(cloud, {0}, 1.0F), {.quat = 0.1F}, cloud);
+  for (int t = 0; t < 50; ++t) step(adam, gradients_for(cloud, {0}, 1.0F), {.quat = 0.1F}, cloud);
   double norm2 = 0.0;
   for (const float q : cloud.quats_xyzw) norm2 += static_cast<double>(q * q);
   EXPECT_NEAR(norm2, 1.0, 1e-5);
@@ -97,7 +107,7 @@ TEST(Adam, MomentsFollowTheirRows) {
   auto cloud = test::random_cloud(random, {.count = 3});
   Adam adam(0, {});
   adam.resize(3);
-  for (int t = 0; t < 5; ++t) adam.step(gradients_for(cloud, {2}, 1.0F), {}, cloud);
+  for (int t = 0; t < 5; ++t) step(adam, gradients_for(cloud, {2}, 1.0F), {}, cloud);
   const std::vector<std::uint32_t> kept{0, 2};
   adam.keep_rows(kept);
   adam.resize(3);
@@ -113,7 +123,7 @@ TEST(Adam, LeavesARowWhoseResultIsNotFinite) {
   Adam adam(0, {});
   adam.resize(1);
   const auto before = cloud;
-  adam.step(gradients_for(cloud, {0}, std::numeric_limits<float>::quiet_NaN()), {}, cloud);
+  step(adam, gradients_for(cloud, {0}, std::numeric_limits<float>::quiet_NaN()), {}, cloud);
   EXPECT_EQ(cloud.means_m, before.means_m);
   EXPECT_EQ(cloud.quats_xyzw, before.quats_xyzw);
 }

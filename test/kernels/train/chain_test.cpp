@@ -56,9 +56,7 @@ GaussianGradients gradients_of(const gaussian::GaussianCloud& cloud, const splat
   BlendBackwardScratch scratch;
   const auto by_splat = blend_backward(projected.splats, tiles, view, {colour, depth, alpha},
                                        {loss.colour, loss.depth, loss.alpha}, scratch);
-  GaussianGradients gradients;
-  gaussian_backward(splat::spans_of(cloud), view, projected.splats, by_splat, gradients);
-  return gradients;
+  return gaussian_backward(splat::spans_of(cloud), view, projected.splats, by_splat);
 }
 
 struct ChainCase {
