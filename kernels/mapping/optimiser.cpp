@@ -139,7 +139,8 @@ void Optimiser::size_pictures(const TrainingView& view) {
   pictures_.alpha.resize(pixels);
   const bool with_depth = !view.depth_m.empty() && options_.depth_factor > 0.0F;
   pictures_.by_depth_sum.resize(with_depth ? pixels : 0);
-  pictures_.by_alpha.assign(with_depth || options_.gap_factor > 0.0F ? pixels : 0, 0.0F);
+  pictures_.by_alpha.resize(with_depth || options_.gap_factor > 0.0F ? pixels : 0);
+  if (!with_depth) std::ranges::fill(pictures_.by_alpha, 0.0F);  // the depth loss writes it whole
 }
 
 void Optimiser::compare(const TrainingView& view, StepReport& report) {
@@ -210,18 +211,18 @@ Result<StepReport> Optimiser::step(const TrainingView& view) {
   size_pictures(view);
   const splat::GaussianSpans gaussians = splat::spans_of(cloud_);
   Pictures& p = pictures_;
-  EDGESPLAT_TRY(const splat::Projected projected,
-                splat::project(core::Backend::kCpu, gaussians, view.view, options_.render));
-  const auto tiles = splat::make_tile_lists(projected.splats, view.view.width_px, view.view.height_px);
-  splat::blend(projected.splats, tiles, view.view, options_.render, {p.colour, p.depth_sum_m, p.alpha});
+  EDGESPLAT_TRY_STATUS(splat::project(core::Backend::kCpu, gaussians, view.view, options_.render,
+                                      project_scratch_, projected_));
+  splat::make_tile_lists(projected_.splats, view.view.width_px, view.view.height_px, tiles_scratch_, tiles_);
+  splat::blend(projected_.splats, tiles_, view.view, options_.render, {p.colour, p.depth_sum_m, p.alpha});
   report.times.forward = watch.lap();
   compare(view, report);
   report.times.loss = watch.lap();
   const auto by_splat =
-      train::blend_backward(projected.splats, tiles, view.view, {p.colour, p.depth_sum_m, p.alpha},
+      train::blend_backward(projected_.splats, tiles_, view.view, {p.colour, p.depth_sum_m, p.alpha},
                             {p.by_colour, p.by_depth_sum, p.by_alpha}, scratch_);
   report.times.backward = watch.lap();
-  move_rows(view.view, projected.splats, by_splat, report);
+  move_rows(view.view, projected_.splats, by_splat, report);
   report.times.update = watch.lap();
   return report;
 }

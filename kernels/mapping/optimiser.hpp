@@ -8,6 +8,8 @@
 #include "kernels/mapping/row_changes.hpp"
 #include "kernels/mapping/row_statistics.hpp"
 #include "kernels/mapping/training_view.hpp"
+#include "kernels/splat/project.hpp"
+#include "kernels/splat/tile_lists.hpp"
 
 #include <array>
 #include <chrono>
@@ -105,6 +107,10 @@ class Optimiser {
   std::vector<RowStatistics> statistics_;
   // Kept from step to step for their memory only.
   Pictures pictures_;
+  splat::ProjectScratch project_scratch_;
+  splat::Projected projected_;
+  splat::TileListsScratch tiles_scratch_;
+  splat::TileLists tiles_;
   train::BlendBackwardScratch scratch_;
   train::GaussianBackwardScratch rows_scratch_;
   std::uint64_t rows_refused_ = 0;

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/splat/depth_order.hpp"
+
 #include "common/thread/parallel_for.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdint>
+#include <memory>
 
 namespace edgesplat::splat {
 namespace {
@@ -14,49 +15,57 @@ namespace {
 constexpr unsigned kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 constexpr unsigned kPasses = 3;
+/// Keys are dealt out in this many runs whatever the number of threads.
+constexpr std::size_t kRuns = 8;
 
-/// A splat's place in the input by its depth: positive floats sort as their bits do.
-struct Key {
-  std::uint32_t depth_bits;
-  std::uint32_t index;
-};
+using Places = std::array<std::array<std::uint32_t, kDigits>, kRuns>;
 
-std::size_t digit(const Key& key, unsigned pass) {
+std::size_t digit(const DepthKey& key, unsigned pass) {
   return key.depth_bits >> pass * kDigitBits & (kDigits - 1);
 }
 
-/// Stable radix sort, least digit first. A few passes over a small array beat comparing.
-void sort_keys(std::vector<Key>& keys) {
-  std::array<std::array<std::uint32_t, kDigits>, kPasses> places{};
-  for (const Key& key : keys) {
-    for (unsigned pass = 0; pass < kPasses; ++pass) ++places[pass][digit(key, pass)];
-  }
-  std::vector<Key> other(keys.size());
-  for (unsigned pass = 0; pass < kPasses; ++pass) {
-    std::uint32_t next = 0;
-    for (std::uint32_t& place : places[pass]) {
-      const std::uint32_t count = place;
-      place = next;
+/// One pass of a stable radix sort: each run counts its digits, then moves its keys to places of its own.
+void sort_by_digit(const std::vector<DepthKey>& from, unsigned pass, Places& places,
+                   std::vector<DepthKey>& to) {
+  const auto begin = [&from](std::size_t run) { return from.size() * run / kRuns; };
+  thread::parallel_for(std::size_t{0}, kRuns, [&](std::size_t run) {
+    places[run].fill(0);
+    for (std::size_t i = begin(run); i < begin(run + 1); ++i) ++places[run][digit(from[i], pass)];
+  });
+  std::uint32_t next = 0;
+  for (std::size_t d = 0; d < kDigits; ++d) {
+    for (auto& run : places) {
+      const std::uint32_t count = run[d];
+      run[d] = next;
       next += count;
     }
-    for (const Key& key : keys) other[places[pass][digit(key, pass)]++] = key;
-    keys.swap(other);
   }
+  thread::parallel_for(std::size_t{0}, kRuns, [&](std::size_t run) {
+    for (std::size_t i = begin(run); i < begin(run + 1); ++i)
+      to[places[run][digit(from[i], pass)]++] = from[i];
+  });
 }
 
 }  // namespace
 
+void sort_by_depth(std::vector<DepthKey>& keys, std::vector<DepthKey>& other) {
+  const auto places = std::make_unique<Places>();
+  other.resize(keys.size());
+  for (unsigned pass = 0; pass < kPasses; ++pass) {
+    sort_by_digit(keys, pass, *places, other);
+    keys.swap(other);
+  }
+}
+
 std::vector<Splat> sorted_by_depth(const std::vector<Splat>& splats) {
-  constexpr std::size_t kBlock = 8192;
-  std::vector<Key> keys(splats.size());
+  std::vector<DepthKey> keys(splats.size()), other;
+  // Positive floats sort as their bits do.
   for (std::size_t i = 0; i < splats.size(); ++i)
     keys[i] = {std::bit_cast<std::uint32_t>(splats[i].depth_m), static_cast<std::uint32_t>(i)};
-  sort_keys(keys);
-  std::vector<Splat> sorted(splats.size());
-  thread::parallel_for(std::size_t{0}, (keys.size() + kBlock - 1) / kBlock, [&](std::size_t b) {
-    for (std::size_t i = b * kBlock; i < std::min(keys.size(), (b + 1) * kBlock); ++i)
-      sorted[i] = splats[keys[i].index];
-  });
+  sort_by_depth(keys, other);
+  std::vector<Splat> sorted;
+  sorted.reserve(splats.size());
+  for (const DepthKey& key : keys) sorted.push_back(splats[key.index]);
   return sorted;
 }
 

@@ -25,6 +25,18 @@ struct alignas(64) Splat {
   std::uint32_t gaussian;  ///< row in the input
 };
 
+/// A splat's place in some order by its depth: positive floats sort as their bits do.
+struct DepthKey {
+  std::uint32_t depth_bits;
+  std::uint32_t index;
+};
+
+/// Memory that one call leaves for the next.
+struct ProjectScratch {
+  std::vector<Splat> splats;
+  std::vector<DepthKey> keys, other_keys;
+};
+
 struct Projected {
   std::vector<Splat> splats;     ///< visible ones, nearest first; ties by row
   std::uint64_t not_finite = 0;  ///< Gaussians with NaN or infinite parameters: skipped
@@ -32,9 +44,13 @@ struct Projected {
 };
 
 /// Projects Gaussians to screen-space ellipses (project_math.hpp) with colours from SH, drops what the
-/// picture does not show (alpha < 1/255 everywhere in it) and sorts by depth. N == 0 is valid. Backends agree
-/// to 1e-4 relative; the result does not depend on the number of threads. Errors: kInvalidArgument (lengths),
+/// picture does not show (alpha < 1/255 everywhere in it) and sorts by depth. The colours of what is not
+/// shown are not looked at. N == 0 is valid. Backends agree to 1e-4 relative; the result does not depend on
+/// the number of threads. `out` is written whole, its memory used again. Errors: kInvalidArgument (lengths),
 /// kUnavailable (no such backend).
+[[nodiscard]] Status project(core::Backend backend, const GaussianSpans& gaussians, const View& view,
+                             const RenderOptions& options, ProjectScratch& scratch, Projected& out);
+/// The same for once.
 [[nodiscard]] Result<Projected> project(core::Backend backend, const GaussianSpans& gaussians,
                                         const View& view, const RenderOptions& options);
 

@@ -7,8 +7,8 @@
 namespace edgesplat::splat {
 
 /// One implementation a backend; inputs are checked by project().
-[[nodiscard]] Projected project_cpu(const GaussianSpans& gaussians, const View& view,
-                                    const RenderOptions& options);
+void project_cpu(const GaussianSpans& gaussians, const View& view, const RenderOptions& options,
+                 ProjectScratch& scratch, Projected& out);
 [[nodiscard]] Result<Projected> project_cuda(const GaussianSpans& gaussians, const View& view,
                                              const RenderOptions& options);
 

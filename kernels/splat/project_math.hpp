@@ -70,8 +70,9 @@ EDGESPLAT_HOST_DEVICE inline bool project(const CameraT<T>& c, const T* mean, co
   for (int i = 0; i < 3; ++i) {
     out.p[i] = r[3 * i] * mean[0] + r[3 * i + 1] * mean[1] + r[3 * i + 2] * mean[2] + c.translation[i];
   }
-  const T z = out.p[2];
-  if (!(z > near_m)) return false;
+  // No branches, so that loops over Gaussians vectorise: what is too near is projected as if it were not.
+  const bool in_front = out.p[2] > near_m;
+  const T z = in_front ? out.p[2] : T(1);
   const T x_limit = T(1.3) * c.tan_x, y_limit = T(1.3) * c.tan_y;
   T x = out.p[0] / z, y = out.p[1] / z;
   out.u = c.fx * x + c.cx;
@@ -94,11 +95,12 @@ EDGESPLAT_HOST_DEVICE inline bool project(const CameraT<T>& c, const T* mean, co
   out.cov[1] = a[0] * sb[0] + a[1] * sb[1] + a[2] * sb[2];
   out.cov[2] = b[0] * sb[0] + b[1] * sb[1] + b[2] * sb[2] + low_pass;
   const T det = out.cov[0] * out.cov[2] - out.cov[1] * out.cov[1];
-  if (!(det > T(0))) return false;
-  out.conic[0] = out.cov[2] / det;
-  out.conic[1] = -out.cov[1] / det;
-  out.conic[2] = out.cov[0] / det;
-  return true;
+  const bool regular = det > T(0);
+  const T inverse = 1 / (regular ? det : T(1));
+  out.conic[0] = out.cov[2] * inverse;
+  out.conic[1] = -out.cov[1] * inverse;
+  out.conic[2] = out.cov[0] * inverse;
+  return in_front && regular;
 }
 
 }  // namespace edgesplat::splat

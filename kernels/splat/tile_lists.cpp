@@ -21,15 +21,6 @@
 #define EDGESPLAT_KERNELS_SPLAT_TILE_LISTS_ONCE
 namespace edgesplat::splat {
 
-/// What one run of splats touches.
-struct TilePart {
-  std::size_t first = 0, last = 0;     ///< splats [first, last)
-  std::vector<std::uint32_t> tiles;    ///< splat by splat
-  std::vector<std::uint16_t> reached;  ///< blocks, one an entry of `tiles`
-  std::vector<std::uint32_t> counts;   ///< of tiles, one a splat
-  std::vector<std::uint32_t> places;   ///< one a tile: first how many, then where the next goes
-};
-
 struct TileRange {
   int first, last;  ///< [first, last)
 };
@@ -99,6 +90,9 @@ HWY_INLINE std::uint32_t blocks_reached(const Splat& s, float left, float top) {
 
 void find_tiles(std::span<const Splat> splats, int columns, int rows, TilePart& part) {
   part.places.assign(static_cast<std::size_t>(columns * rows), 0);
+  part.tiles.clear();
+  part.reached.clear();
+  part.counts.clear();
   part.counts.reserve(part.last - part.first);
   for (std::size_t i = part.first; i < part.last; ++i) {
     const Splat& s = splats[i];
@@ -149,6 +143,7 @@ void lay_out(std::vector<TilePart>& parts, TileLists& lists) {
 }
 
 void number_slots(const std::vector<TilePart>& parts, TileLists& lists) {
+  lists.splat_starts.clear();
   std::uint32_t next = 0;
   for (const TilePart& part : parts) {
     for (const std::uint32_t count : part.counts) {
@@ -174,20 +169,27 @@ void deal_out(TilePart& part, TileLists& lists) {
 
 }  // namespace
 
-TileLists make_tile_lists(std::span<const Splat> splats, int width_px, int height_px) {
-  TileLists lists;
-  lists.columns = (width_px + kTilePx - 1) / kTilePx;
-  lists.rows = (height_px + kTilePx - 1) / kTilePx;
-  std::vector<TilePart> parts(kRuns);
+void make_tile_lists(std::span<const Splat> splats, int width_px, int height_px, TileListsScratch& scratch,
+                     TileLists& out) {
+  out.columns = (width_px + kTilePx - 1) / kTilePx;
+  out.rows = (height_px + kTilePx - 1) / kTilePx;
+  std::vector<TilePart>& parts = scratch.parts;
+  parts.resize(kRuns);
   thread::parallel_for(std::size_t{0}, kRuns, [&](std::size_t p) {
     parts[p].first = splats.size() * p / kRuns;
     parts[p].last = splats.size() * (p + 1) / kRuns;
-    HWY_DYNAMIC_DISPATCH(find_tiles)(splats, lists.columns, lists.rows, parts[p]);
+    HWY_DYNAMIC_DISPATCH(find_tiles)(splats, out.columns, out.rows, parts[p]);
   });
-  lists.splat_starts.reserve(splats.size() + 1);
-  number_slots(parts, lists);
-  lay_out(parts, lists);
-  thread::parallel_for(std::size_t{0}, kRuns, [&](std::size_t p) { deal_out(parts[p], lists); });
+  out.splat_starts.reserve(splats.size() + 1);
+  number_slots(parts, out);
+  lay_out(parts, out);
+  thread::parallel_for(std::size_t{0}, kRuns, [&](std::size_t p) { deal_out(parts[p], out); });
+}
+
+TileLists make_tile_lists(std::span<const Splat> splats, int width_px, int height_px) {
+  TileListsScratch scratch;
+  TileLists lists;
+  make_tile_lists(splats, width_px, height_px, scratch, lists);
   return lists;
 }
 

@@ -45,8 +45,26 @@ struct TileLists {
   }
 };
 
+/// What one run of splats touches.
+struct TilePart {
+  std::size_t first = 0, last = 0;     ///< splats [first, last)
+  std::vector<std::uint32_t> tiles;    ///< splat by splat
+  std::vector<std::uint16_t> reached;  ///< blocks, one an entry of `tiles`
+  std::vector<std::uint32_t> counts;   ///< of tiles, one a splat
+  std::vector<std::uint32_t> places;   ///< one a tile: first how many, then where the next goes
+};
+
+/// Memory that one call leaves for the next.
+struct TileListsScratch {
+  std::vector<TilePart> parts;
+};
+
 /// Bins depth-sorted splats into tiles: a tile gets a splat when alpha reaches 1/255 somewhere in it (the box
-/// around the ellipse, then the exact distance of the ellipse to each block of pixels). Deterministic.
+/// around the ellipse, then the exact distance of the ellipse to each block of pixels). Deterministic. `out`
+/// is written whole, its memory used again.
+void make_tile_lists(std::span<const Splat> splats, int width_px, int height_px, TileListsScratch& scratch,
+                     TileLists& out);
+/// The same for once.
 [[nodiscard]] TileLists make_tile_lists(std::span<const Splat> splats, int width_px, int height_px);
 
 }  // namespace edgesplat::splat

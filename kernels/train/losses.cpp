@@ -4,16 +4,142 @@
 
 #include "common/base/check.hpp"
 #include "common/thread/parallel_for.hpp"
-#include "kernels/core/simd_variants.hpp"
+#include "kernels/core/simd.hpp"
 #include "kernels/train/ssim.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/train/losses.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+
+#include <hwy/highway.h>
+
+#ifndef EDGESPLAT_KERNELS_TRAIN_LOSSES_ONCE
+#define EDGESPLAT_KERNELS_TRAIN_LOSSES_ONCE
+namespace edgesplat::train {
+
+struct L1Run {
+  const float* drawn;
+  const float* target;
+  float* by_drawn;
+  std::size_t count;  ///< of floats
+  float scale;
+};
+
+struct DepthRun {
+  const float* depth_sum_m;
+  const float* alpha;
+  const float* target_m;
+  const float* weight;  ///< null: all 1
+  float* by_depth_sum;
+  float* by_alpha;
+  std::size_t count;  ///< of pixels
+  float scale;
+  float min_alpha;
+};
+
+}  // namespace edgesplat::train
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgesplat::train::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::CappedTag<float, 16>;
+using V = hn::Vec<D>;
+
+/// Runs `work` over registers of pixels; the last ones, fewer than a register, go through a copy.
+template <typename Work>
+HWY_INLINE void over_registers(std::size_t count, const Work& work) {
+  const std::size_t lanes = hn::Lanes(D());
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) work(i, lanes);
+  if (i < count) work(i, count - i);
+}
+HWY_INLINE V load(const float* from, std::size_t some) {
+  const D d;
+  return some == hn::Lanes(d) ? hn::LoadU(d, from) : hn::MaskedLoad(hn::FirstN(d, some), d, from);
+}
+HWY_INLINE void store(V values, float* to, std::size_t some) {
+  const D d;
+  if (some == hn::Lanes(d)) {
+    hn::StoreU(values, d, to);
+  } else {
+    hn::BlendedStore(values, hn::FirstN(d, some), d, to);
+  }
+}
+/// 1, 0 or -1 times `size`.
+HWY_INLINE V with_sign_of(V difference, V size) {
+  return hn::IfThenElseZero(hn::Ne(difference, hn::Zero(D())), hn::CopySign(size, difference));
+}
+
+/// L1 of a run of floats: scale times its gradient; returns how far apart they are.
+double l1_run(const L1Run& run) {
+  const D d;
+  const V scale = hn::Set(d, run.scale);
+  V sum = hn::Zero(d);
+  over_registers(run.count, [&](std::size_t i, std::size_t some) HWY_ATTR {
+    const V apart = hn::Sub(load(run.drawn + i, some), load(run.target + i, some));
+    sum = hn::Add(sum, hn::Abs(apart));
+    store(with_sign_of(apart, scale), run.by_drawn + i, some);
+  });
+  return static_cast<double>(hn::GetLane(hn::SumOfLanes(d, sum)));
+}
+
+/// Weight of the pixels of a register that have a measurement and enough coverage, 0 for the others.
+HWY_INLINE V depth_weight(const DepthRun& run, std::size_t i, std::size_t some, V alpha, V target) {
+  const D d;
+  const auto counts = hn::And(hn::And(hn::Gt(target, hn::Zero(d)),
+                                      hn::Lt(target, hn::Set(d, std::numeric_limits<float>::infinity()))),
+                              hn::Ge(alpha, hn::Set(d, run.min_alpha)));
+  const V one = hn::Set(d, 1.0F);
+  return hn::IfThenElseZero(counts, run.weight == nullptr ? one : load(run.weight + i, some));
+}
+
+double depth_total(const DepthRun& run) {
+  const D d;
+  V sum = hn::Zero(d);
+  over_registers(run.count, [&](std::size_t i, std::size_t some) HWY_ATTR {
+    sum = hn::Add(sum, depth_weight(run, i, some, load(run.alpha + i, some), load(run.target_m + i, some)));
+  });
+  return static_cast<double>(hn::GetLane(hn::SumOfLanes(d, sum)));
+}
+
+/// Weighted sum of how far apart the depths are.
+double depth_run(const DepthRun& run) {
+  const D d;
+  const V one = hn::Set(d, 1.0F), scale = hn::Set(d, run.scale);
+  V sum = hn::Zero(d);
+  over_registers(run.count, [&](std::size_t i, std::size_t some) HWY_ATTR {
+    const V alpha = load(run.alpha + i, some), target = load(run.target_m + i, some);
+    const V weight = depth_weight(run, i, some, alpha, target);
+    const auto counts = hn::Gt(weight, hn::Zero(d));
+    const V inverse = hn::Div(one, hn::IfThenElse(counts, alpha, one));
+    const V depth = hn::Mul(load(run.depth_sum_m + i, some), inverse);
+    const V apart = hn::IfThenElseZero(counts, hn::Sub(depth, target));
+    const V by_depth = hn::Mul(with_sign_of(apart, hn::Mul(scale, weight)), inverse);
+    sum = hn::MulAdd(weight, hn::Abs(apart), sum);
+    store(by_depth, run.by_depth_sum + i, some);
+    store(hn::IfThenElseZero(counts, hn::Neg(hn::Mul(by_depth, depth))), run.by_alpha + i, some);
+  });
+  return static_cast<double>(hn::GetLane(hn::SumOfLanes(d, sum)));
+}
+
+}  // namespace edgesplat::train::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace edgesplat::train {
 namespace {
+
+HWY_EXPORT(l1_run);
+HWY_EXPORT(depth_total);
+HWY_EXPORT(depth_run);
 
 constexpr std::size_t kBlock = std::size_t{1} << 14U;  ///< pixels
 
@@ -29,64 +155,21 @@ double sum_over_blocks(std::size_t pixels, const Block& block) {
   return sum;
 }
 
-struct L1Run {
-  const float* __restrict drawn;
-  const float* __restrict target;
-  float* __restrict by_drawn;
-  std::size_t count;
-  float scale;
-  double& sum;
-};
-
-/// L1 of a run of floats: scale times its gradient, and how far apart they are. The sums of 16 places are
-/// kept apart so that the loop becomes vector operations.
-EDGESPLAT_INLINE void l1_run_inline(const L1Run& run) {
-  constexpr std::size_t kLanes = 16;
-  float sums[kLanes] = {};
-  const float scale = run.scale;
-  const std::size_t whole = run.count / kLanes * kLanes;
-  for (std::size_t first = 0; first < whole; first += kLanes) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const float d = run.drawn[first + k] - run.target[first + k];
-      sums[k] += std::abs(d);
-      run.by_drawn[first + k] = d > 0.0F ? scale : (d < 0.0F ? -scale : 0.0F);
-    }
-  }
-  for (std::size_t i = whole; i < run.count; ++i) {
-    const float d = run.drawn[i] - run.target[i];
-    sums[i - whole] += std::abs(d);
-    run.by_drawn[i] = d > 0.0F ? scale : (d < 0.0F ? -scale : 0.0F);
-  }
-  double sum = 0.0;
-  for (const float part : sums) sum += static_cast<double>(part);
-  run.sum = sum;
-}
-
-EDGESPLAT_SIMD_VARIANTS(l1_run, (const L1Run& run), (run))
-
 double l1_backward(const ColourPair& pair, float scale, std::span<float> by_drawn) {
-  const auto l1_run = fastest_l1_run();
+  const auto l1_run = HWY_DYNAMIC_DISPATCH(l1_run);
   return sum_over_blocks(pair.pixels(), [&](std::size_t first, std::size_t last) {
     double sum = 0.0;
     if (pair.weight.empty()) {
-      l1_run({&pair.drawn[3 * first], &pair.target[3 * first], &by_drawn[3 * first], 3 * (last - first),
-              scale, sum});
-      return sum;
+      return l1_run(
+          {&pair.drawn[3 * first], &pair.target[3 * first], &by_drawn[3 * first], 3 * (last - first), scale});
     }
     for (std::size_t pixel = first; pixel < last; ++pixel) {
       const float w = pair.weight[pixel];
-      double apart = 0.0;
-      l1_run({&pair.drawn[3 * pixel], &pair.target[3 * pixel], &by_drawn[3 * pixel], 3, scale * w, apart});
-      sum += static_cast<double>(w) * apart;
+      sum += static_cast<double>(w) *
+             l1_run({&pair.drawn[3 * pixel], &pair.target[3 * pixel], &by_drawn[3 * pixel], 3, scale * w});
     }
     return sum;
   });
-}
-
-/// A pixel that has a measurement and enough coverage.
-bool counts(const DepthPair& pair, std::size_t pixel, float min_alpha) {
-  const float target = pair.target_m[pixel];
-  return target > 0.0F && std::isfinite(target) && pair.alpha[pixel] >= min_alpha;
 }
 
 }  // namespace
@@ -116,28 +199,23 @@ double depth_loss(const DepthPair& pair, float factor, float min_alpha, std::spa
                       (pair.weight.empty() || pair.weight.size() == pixels) &&
                       by_depth_sum.size() == pixels && by_alpha.size() == pixels,
                   "pictures of one size");
-  const auto weight = [&pair](std::size_t pixel) { return pair.weight.empty() ? 1.0F : pair.weight[pixel]; };
+  const auto run_of = [&](std::size_t first, std::size_t last, float scale) {
+    return DepthRun{&pair.depth_sum_m[first],
+                    &pair.alpha[first],
+                    &pair.target_m[first],
+                    pair.weight.empty() ? nullptr : &pair.weight[first],
+                    &by_depth_sum[first],
+                    &by_alpha[first],
+                    last - first,
+                    scale,
+                    min_alpha};
+  };
   const double total = sum_over_blocks(pixels, [&](std::size_t first, std::size_t last) {
-    double sum = 0.0;
-    for (std::size_t i = first; i < last; ++i) {
-      if (counts(pair, i, min_alpha)) sum += static_cast<double>(weight(i));
-    }
-    return sum;
+    return HWY_DYNAMIC_DISPATCH(depth_total)(run_of(first, last, 0.0F));
   });
   const float scale = total > 0.0 ? static_cast<float>(static_cast<double>(factor) / total) : 0.0F;
   const double sum = sum_over_blocks(pixels, [&](std::size_t first, std::size_t last) {
-    double apart = 0.0;
-    for (std::size_t i = first; i < last; ++i) {
-      by_depth_sum[i] = by_alpha[i] = 0.0F;
-      if (!counts(pair, i, min_alpha)) continue;
-      const float depth_m = pair.depth_sum_m[i] / pair.alpha[i];
-      const float d = depth_m - pair.target_m[i];
-      const float by_depth = scale * weight(i) * (d > 0.0F ? 1.0F : (d < 0.0F ? -1.0F : 0.0F));
-      by_depth_sum[i] = by_depth / pair.alpha[i];
-      by_alpha[i] = -by_depth * depth_m / pair.alpha[i];
-      apart += static_cast<double>(weight(i) * std::abs(d));
-    }
-    return apart;
+    return HWY_DYNAMIC_DISPATCH(depth_run)(run_of(first, last, scale));
   });
   return total > 0.0 ? sum / total : 0.0;
 }
@@ -166,3 +244,4 @@ double add_gap_loss(std::span<const float> alpha, std::span<const float> weight,
 }
 
 }  // namespace edgesplat::train
+#endif
