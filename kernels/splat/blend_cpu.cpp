@@ -29,8 +29,9 @@ inline constexpr std::size_t kChunk = 256;
 
 /// A tile's accumulators.
 struct BlendTile {
-  TilePlane transmittance;  ///< negative, its size kept, once the pixel is full
+  TilePlane transmittance;  ///< under kMinTransmittance once the pixel is full: it only falls
   TilePlane red, green, blue, depth;
+  TilePlane weight;  ///< of all the splats that were taken
 };
 
 struct BlendScratch {
@@ -67,7 +68,7 @@ namespace edgesplat::splat::HWY_NAMESPACE {
 bool add_to_block(const BlendScratch& scratch, int block, BlendTile& tile) {
   const D d;
   const V zero = hn::Zero(d), most = hn::Set(d, kMaxAlpha), least = hn::Set(d, kMinAlpha);
-  const V least_left = hn::Set(d, kMinTransmittance), sign = hn::Set(d, -0.0F);
+  const V least_left = hn::Set(d, kMinTransmittance);
   bool open = false;
   for (int part = 0; part < kParts; ++part) {
     const PixelPlaces at = places_of(d, block, part);
@@ -75,6 +76,7 @@ bool add_to_block(const BlendScratch& scratch, int block, BlendTile& tile) {
     V left = hn::Load(d, tile.transmittance.at[block] + first);
     V red = hn::Load(d, tile.red.at[block] + first), green = hn::Load(d, tile.green.at[block] + first);
     V blue = hn::Load(d, tile.blue.at[block] + first), depth = hn::Load(d, tile.depth.at[block] + first);
+    V sum = hn::Load(d, tile.weight.at[block] + first);
     for (std::uint32_t i = 0; i < scratch.count[block]; ++i) {
       const TileSplat& s = scratch.splats[scratch.list[block][i]];
       const V raw = raw_alpha_lanes(d, s, at);
@@ -86,14 +88,16 @@ bool add_to_block(const BlendScratch& scratch, int block, BlendTile& tile) {
       green = hn::MulAdd(weight, hn::Set(d, s.rgb[1]), green);
       blue = hn::MulAdd(weight, hn::Set(d, s.rgb[2]), blue);
       depth = hn::MulAdd(weight, hn::Set(d, s.depth_m), depth);
-      left = hn::IfThenElse(takes, after, hn::Or(left, sign));
+      sum = hn::Add(sum, weight);
+      left = after;
     }
     hn::Store(left, d, tile.transmittance.at[block] + first);
     hn::Store(red, d, tile.red.at[block] + first);
     hn::Store(green, d, tile.green.at[block] + first);
     hn::Store(blue, d, tile.blue.at[block] + first);
     hn::Store(depth, d, tile.depth.at[block] + first);
-    open = open || !hn::AllTrue(d, hn::Lt(left, zero));
+    hn::Store(sum, d, tile.weight.at[block] + first);
+    open = open || !hn::AllTrue(d, hn::Lt(left, least_left));
   }
   return open;
 }
@@ -126,14 +130,15 @@ template <typename Run>
 HWY_INLINE void write_run(Run run, const BlendTile& tile, int block, int pixel, const TileTarget& to,
                           std::size_t at) {
   const auto i = static_cast<std::size_t>(pixel);
-  const auto left = hn::Abs(hn::LoadU(run, tile.transmittance.at[block] + i));
+  const auto alpha = hn::LoadU(run, tile.weight.at[block] + i);
+  const auto left = hn::Sub(hn::Set(run, 1.0F), alpha);
   const auto colour = [&](const TilePlane& plane, float background) HWY_ATTR {
     return hn::MulAdd(left, hn::Set(run, background), hn::LoadU(run, plane.at[block] + i));
   };
   hn::StoreInterleaved3(colour(tile.red, to.background[0]), colour(tile.green, to.background[1]),
                         colour(tile.blue, to.background[2]), run, &to.out.colour[3 * at]);
   hn::StoreU(hn::LoadU(run, tile.depth.at[block] + i), run, &to.out.depth_sum_m[at]);
-  hn::StoreU(hn::Sub(hn::Set(run, 1.0F), left), run, &to.out.alpha[at]);
+  hn::StoreU(alpha, run, &to.out.alpha[at]);
 }
 
 void write_tile(const BlendTile& tile, const TileTarget& to) {

@@ -26,7 +26,7 @@ namespace edgesplat::train {
 
 /// A tile's pixels.
 struct ReverseTile {
-  splat::TilePlane transmittance;  ///< negative once the pixel is full
+  splat::TilePlane transmittance;  ///< under kMinTransmittance once the pixel is full: it only falls
   /// dL by picture times what the splats still to come and the background add.
   splat::TilePlane rest;
   splat::TilePlane by_red, by_green, by_blue, by_depth;
@@ -77,7 +77,7 @@ HWY_INLINE void add_block(const splat::TileSplat& s, int block, ReverseTile& til
   const D d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0F);
   const V most = hn::Set(d, splat::kMaxAlpha), least = hn::Set(d, splat::kMinAlpha);
-  const V least_left = hn::Set(d, splat::kMinTransmittance), sign = hn::Set(d, -0.0F);
+  const V least_left = hn::Set(d, splat::kMinTransmittance);
   for (int part = 0; part < kParts; ++part) {
     const auto at = splat::HWY_NAMESPACE::places_of(d, block, part);
     const std::size_t first = static_cast<std::size_t>(part * kLanes);
@@ -112,7 +112,7 @@ HWY_INLINE void add_block(const splat::TileSplat& s, int block, ReverseTile& til
     sums.depth = hn::MulAdd(weight, by_depth, sums.depth);
     sums.weight = hn::Add(sums.weight, weight);
     hn::Store(rest, d, tile.rest.at[block] + first);
-    hn::Store(hn::IfThenElse(takes, after, hn::Or(before, sign)), d, tile.transmittance.at[block] + first);
+    hn::Store(after, d, tile.transmittance.at[block] + first);
   }
 }
 
@@ -209,14 +209,14 @@ void load_tile(const TileSource& from, ReverseTile& tile) {
   }
 }
 
-/// Bit b is set where some pixel of block b still takes splats: those have a transmittance above 0.
+/// Bit b is set where some pixel of block b still takes splats.
 std::uint32_t open_blocks(const splat::TilePlane& transmittance) {
   const D d;
   std::uint32_t blocks = 0;
   for (unsigned b = 0; b < splat::kBlocks; ++b) {
     for (int part = 0; part < kParts; ++part) {
       const V left = hn::Load(d, transmittance.at[b] + static_cast<std::size_t>(part * kLanes));
-      if (!hn::AllTrue(d, hn::Le(left, hn::Zero(d)))) blocks |= 1U << b;
+      if (!hn::AllTrue(d, hn::Lt(left, hn::Set(d, splat::kMinTransmittance)))) blocks |= 1U << b;
     }
   }
   return blocks;

@@ -183,12 +183,14 @@ ColourLoss colour_loss(const ColourPair& pair, float ssim_share, std::span<float
     return loss;
   }
   const auto share = static_cast<double>(ssim_share);
-  loss.l1 = l1_backward(pair, static_cast<float>((1.0 - share) / total), by_drawn) / total;
-  loss.value = (1.0 - share) * loss.l1;
   if (ssim_share > 0.0F) {
-    loss.ssim = ssim_backward(pair, -ssim_share, by_drawn);
-    loss.value += share * (1.0 - loss.ssim);
+    const SsimAndL1 both = ssim_l1_backward(pair, -ssim_share, 1.0F - ssim_share, by_drawn);
+    loss.l1 = both.l1;
+    loss.ssim = both.ssim;
+  } else {
+    loss.l1 = l1_backward(pair, static_cast<float>(1.0 / total), by_drawn) / total;
   }
+  loss.value = (1.0 - share) * loss.l1 + (ssim_share > 0.0F ? share * (1.0 - loss.ssim) : 0.0);
   return loss;
 }
 

@@ -28,8 +28,9 @@ struct SsimStrip {
   const ColourPair& pair;
   int x0_px, y0_px;
   int rows;
-  float scale;                ///< of the gradient
-  std::span<float> by_drawn;  ///< empty: only the value
+  float scale;                ///< of the gradient of the similarity
+  float l1_scale;             ///< of that of the absolute difference
+  std::span<float> by_drawn;  ///< empty: only the value of the similarity
 };
 
 /// Local moments: means of x and y, of x^2 + y^2 and of x y.
@@ -44,6 +45,7 @@ struct SsimBuffers {
   alignas(64) float slope_rows[kSsimBatch][kSlopes][whole_lanes(kSsimMiddle + 2 * kSsimHalo)];
   alignas(64) float slopes[kSlopes][kSsimRing][kSsimOut];
   alignas(64) float sum[kSsimMiddle];  ///< of the similarity, column by column
+  alignas(64) float l1_sum[kSsimOut];  ///< of the absolute differences
 };
 
 /// The part of a row of `floats` starting at float `first` of the picture that lies in it.
@@ -58,32 +60,42 @@ inline float weight_at(const ColourPair& pair, int y, int column) {
   return pair.weight.empty() ? 1.0F : pair.weight[static_cast<std::size_t>(y * pair.width_px + column / 3)];
 }
 
-/// Row y of both pictures, times the weights, zero beyond the edges.
-inline void load_pictures(const SsimStrip& s, int y, SsimBuffers& b) {
+struct SsimRow {
+  const float* drawn;
+  const float* target;
+};
+
+/// Row y of both pictures, times the weights, zero beyond the edges: kSsimIn floats and up to a register
+/// more. In place where it lies inside and everything counts.
+inline SsimRow load_pictures(const SsimStrip& s, int y, SsimBuffers& b) {
   float* x = b.in[kMeanX];
   float* t = b.in[kMeanY];
   const int first = 3 * s.x0_px - 2 * kSsimHalo;
-  const SsimOverlap inside = overlap(first, kSsimIn, s.pair.width_px);
+  const SsimOverlap inside = overlap(first, whole_lanes(kSsimIn), s.pair.width_px);
+  const SsimRow copies{x, t};
   if (y < 0 || y >= s.pair.height_px) {
-    std::fill_n(x, kSsimIn, 0.0F);
-    std::fill_n(t, kSsimIn, 0.0F);
-    return;
-  }
-  for (float* row : {x, t}) {
-    std::fill_n(row, inside.from, 0.0F);
-    std::fill(row + inside.to, row + kSsimIn, 0.0F);
+    std::fill_n(x, whole_lanes(kSsimIn), 0.0F);
+    std::fill_n(t, whole_lanes(kSsimIn), 0.0F);
+    return copies;
   }
   const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(3 * s.pair.width_px) +
                          static_cast<std::size_t>(first + inside.from);
   const auto count = static_cast<std::size_t>(inside.to - inside.from);
+  if (inside.from == 0 && inside.to == whole_lanes(kSsimIn) && s.pair.weight.empty())
+    return {&s.pair.drawn[at], &s.pair.target[at]};
+  for (float* row : {x, t}) {
+    std::fill_n(row, inside.from, 0.0F);
+    std::fill(row + inside.to, row + whole_lanes(kSsimIn), 0.0F);
+  }
   std::copy_n(&s.pair.drawn[at], count, x + inside.from);
   std::copy_n(&s.pair.target[at], count, t + inside.from);
-  if (s.pair.weight.empty()) return;
+  if (s.pair.weight.empty()) return copies;
   for (int i = inside.from; i < inside.to; ++i) {
     const float w = weight_at(s.pair, y, first + i);
     x[i] *= w;
     t[i] *= w;
   }
+  return copies;
 }
 
 inline void load_weight(const SsimStrip& s, int y, float* weight) {
@@ -106,13 +118,14 @@ constexpr int kStep = static_cast<int>(hn::MaxLanes(D()));
 void moment_rows(const SsimStrip& s, int first, int y, SsimBuffers& b) {
   const D d;
   for (int j = 0; j < kSsimBatch; ++j) {
-    load_pictures(s, y + j, b);
+    const SsimRow row = load_pictures(s, y + j, b);
     for (int i = 0; i < whole_lanes(kSsimIn); i += kStep) {
-      const V x = hn::Load(d, b.in[kMeanX] + i), t = hn::Load(d, b.in[kMeanY] + i);
+      const V x = hn::LoadU(d, row.drawn + i), t = hn::LoadU(d, row.target + i);
       hn::Store(hn::MulAdd(x, x, hn::Mul(t, t)), d, b.in[kSquares] + i);
       hn::Store(hn::Mul(x, t), d, b.in[kProduct] + i);
     }
-    for (int q = 0; q < kMoments; ++q) along_row(b.in[q], kSsimMiddle, b.moments[q][(first + j) % kSsimRing]);
+    const float* in[kMoments] = {row.drawn, row.target, b.in[kSquares], b.in[kProduct]};
+    for (int q = 0; q < kMoments; ++q) along_row(in[q], kSsimMiddle, b.moments[q][(first + j) % kSsimRing]);
   }
 }
 
@@ -152,7 +165,7 @@ void middle_rows(const SsimStrip& s, int window, int first, int y, SsimBuffers& 
   }
 }
 
-/// Adds the gradient of the rows from y on, from the rows of slopes from `window` on.
+/// The gradient of the rows from y on, from the rows of slopes from `window` on.
 void gradient_rows(const SsimStrip& s, int window, int y, SsimBuffers& b) {
   const D d;
   const float* rows[kSlopes][kSsimWindow];
@@ -161,12 +174,13 @@ void gradient_rows(const SsimStrip& s, int window, int y, SsimBuffers& b) {
   }
   const int count = std::min(kSsimBatch, s.y0_px + s.rows - y);
   const int floats = std::min(kSsimOut, 3 * (s.pair.width_px - s.x0_px));
-  const V scale = hn::Set(d, s.scale), two = hn::Set(d, 2.0F);
+  const V scale = hn::Set(d, s.scale), l1_scale = hn::Set(d, s.l1_scale), two = hn::Set(d, 2.0F);
   for (int i = 0; i < floats; i += kStep) {
     V slopes[kSlopes][kSsimBatch];
     for (int q = 0; q < kSlopes; ++q) across_rows(rows[q], i, slopes[q]);
     const auto some = static_cast<std::size_t>(std::min(kStep, floats - i));
     const auto mask = hn::FirstN(d, some);
+    V l1_sum = hn::Load(d, b.l1_sum + i);
     for (int j = 0; j < count; ++j) {
       const std::size_t at = (static_cast<std::size_t>(y + j) * static_cast<std::size_t>(s.pair.width_px) +
                               static_cast<std::size_t>(s.x0_px)) *
@@ -186,13 +200,17 @@ void gradient_rows(const SsimStrip& s, int window, int y, SsimBuffers& b) {
       const V of_products =
           hn::MulAdd(hn::Mul(two, drawn), slopes[kBySquares][j], hn::Mul(target, slopes[kByProduct][j]));
       const V by = hn::Mul(hn::Mul(scale, weight), hn::MulAdd(weight, of_products, slopes[kBySum][j]));
-      const V sum = hn::Add(load(&s.by_drawn[at]), by);
+      const V apart = hn::Mul(weight, hn::Sub(drawn, target));
+      l1_sum = hn::Add(l1_sum, hn::Abs(apart));
+      const V towards = hn::IfThenElseZero(hn::Ne(apart, hn::Zero(d)), hn::CopySign(l1_scale, apart));
+      const V sum = hn::MulAdd(towards, weight, by);
       if (some == static_cast<std::size_t>(kStep)) {
         hn::StoreU(sum, d, &s.by_drawn[at]);
       } else {
         hn::BlendedStore(sum, mask, d, &s.by_drawn[at]);
       }
     }
+    hn::Store(l1_sum, d, b.l1_sum + i);
   }
 }
 
@@ -206,6 +224,7 @@ void run_strip(const SsimStrip& s, SsimBuffers& b) {
   const int middle_y = with_gradient ? s.y0_px - kRise : s.y0_px;
   const int batches = (s.rows + kSsimBatch - 1) / kSsimBatch + (with_gradient ? 2 * kLag : kLag);
   std::fill_n(b.sum, kSsimMiddle, 0.0F);
+  std::fill_n(b.l1_sum, kSsimOut, 0.0F);
   for (int n = 0; n < batches; ++n) {
     moment_rows(s, n * kSsimBatch, middle_y - kRise + n * kSsimBatch, b);
     const int middle = (n - kLag) * kSsimBatch;
@@ -225,24 +244,35 @@ namespace {
 
 HWY_EXPORT(run_strip);
 
-/// Sum of weight times similarity over all pixels and channels.
-double run(const ColourPair& pair, float scale, std::span<float> by_drawn) {
+/// Sums over all pixels and channels, times their weights.
+struct Sums {
+  double similarity = 0.0, apart = 0.0;
+};
+
+Sums run(const ColourPair& pair, float scale, float l1_scale, std::span<float> by_drawn) {
   const int columns = (pair.width_px + kSsimStripPx - 1) / kSsimStripPx;
   const int rows = (pair.height_px + kSsimStripRows - 1) / kSsimStripRows;
-  std::vector<double> sums(static_cast<std::size_t>(columns * rows), 0.0);
+  std::vector<Sums> parts(static_cast<std::size_t>(columns * rows));
   thread::parallel_for(0, columns * rows, [&](int i) {
     const int y0 = i / columns * kSsimStripRows;
-    const SsimStrip strip{
-        pair, i % columns * kSsimStripPx, y0, std::min(kSsimStripRows, pair.height_px - y0), scale, by_drawn};
+    const SsimStrip strip{pair,    i % columns * kSsimStripPx,
+                          y0,      std::min(kSsimStripRows, pair.height_px - y0),
+                          scale,   l1_scale,
+                          by_drawn};
     thread_local const auto buffers = std::make_unique<SsimBuffers>();
     HWY_DYNAMIC_DISPATCH(run_strip)(strip, *buffers);
-    double sum = 0.0;
-    for (int k = kSsimHalo; k < kSsimHalo + kSsimOut; ++k) sum += static_cast<double>(buffers->sum[k]);
-    sums[static_cast<std::size_t>(i)] = sum;
+    Sums& part = parts[static_cast<std::size_t>(i)];
+    for (int k = 0; k < kSsimOut; ++k) {
+      part.similarity += static_cast<double>(buffers->sum[kSsimHalo + k]);
+      part.apart += static_cast<double>(buffers->l1_sum[k]);
+    }
   });
-  double sum = 0.0;
-  for (const double part : sums) sum += part;
-  return sum;
+  Sums sums;
+  for (const Sums& part : parts) {
+    sums.similarity += part.similarity;
+    sums.apart += part.apart;
+  }
+  return sums;
 }
 
 }  // namespace
@@ -250,14 +280,22 @@ double run(const ColourPair& pair, float scale, std::span<float> by_drawn) {
 double ssim(const ColourPair& pair) {
   EDGESPLAT_CHECK(pair.consistent(), "two pictures of one size");
   const double total = 3.0 * pair.total_weight();
-  return total > 0.0 ? run(pair, 0.0F, {}) / total : 0.0;
+  return total > 0.0 ? run(pair, 0.0F, 0.0F, {}).similarity / total : 0.0;
 }
 
-double ssim_backward(const ColourPair& pair, float factor, std::span<float> by_drawn) {
+SsimAndL1 ssim_l1_backward(const ColourPair& pair, float ssim_factor, float l1_factor,
+                           std::span<float> by_drawn) {
   EDGESPLAT_CHECK(pair.consistent() && by_drawn.size() == pair.drawn.size(), "three pictures of one size");
   const double total = 3.0 * pair.total_weight();
-  if (!(total > 0.0)) return 0.0;
-  return run(pair, static_cast<float>(static_cast<double>(factor) / total), by_drawn) / total;
+  if (!(total > 0.0)) {
+    std::ranges::fill(by_drawn, 0.0F);
+    return {};
+  }
+  const auto share = [total](float factor) {
+    return static_cast<float>(static_cast<double>(factor) / total);
+  };
+  const Sums sums = run(pair, share(ssim_factor), share(l1_factor), by_drawn);
+  return {sums.similarity / total, sums.apart / total};
 }
 
 }  // namespace edgesplat::train

@@ -15,7 +15,15 @@ namespace edgesplat::train {
 /// must be consistent.
 [[nodiscard]] double ssim(const ColourPair& pair);
 
-/// The same, and adds `factor` times its gradient by the drawn picture to `by_drawn` [H,W,3].
-double ssim_backward(const ColourPair& pair, float factor, std::span<float> by_drawn);
+struct SsimAndL1 {
+  double ssim = 0.0;
+  double l1 = 0.0;  ///< weighted mean absolute difference
+};
+
+/// Both measures in one pass over the pictures; writes `ssim_factor` times the gradient of the similarity by
+/// the drawn picture plus `l1_factor` times that of the absolute difference into `by_drawn` [H,W,3]. Zeros
+/// where no pixel counts.
+SsimAndL1 ssim_l1_backward(const ColourPair& pair, float ssim_factor, float l1_factor,
+                           std::span<float> by_drawn);
 
 }  // namespace edgesplat::train

@@ -51,15 +51,15 @@ TEST_P(Ssim, ValueAgreesWithTheReference) {
   const double expected = p.reference({p.drawn.begin(), p.drawn.end()});
   EXPECT_NEAR(ssim(p.pair()), expected, 2e-5);
   std::vector<float> by_drawn(p.drawn.size());
-  EXPECT_NEAR(ssim_backward(p.pair(), 1.0F, by_drawn), expected, 2e-5);
+  EXPECT_NEAR(ssim_l1_backward(p.pair(), 1.0F, 0.0F, by_drawn).ssim, expected, 2e-5);
 }
 
 TEST_P(Ssim, GradientAgreesWithDifferences) {
   const auto& c = GetParam();
   const Pictures p(2, c.width_px, c.height_px, c.weighted);
-  constexpr float kFactor = 3.0F, kAlreadyThere = 0.25F;
-  std::vector<float> by_drawn(p.drawn.size(), kAlreadyThere);
-  ssim_backward(p.pair(), kFactor, by_drawn);
+  constexpr float kFactor = 3.0F, kStale = 7.0F;  // outputs must be written whole
+  std::vector<float> by_drawn(p.drawn.size(), kStale);
+  ssim_l1_backward(p.pair(), kFactor, 0.0F, by_drawn);
   std::vector<double> x(p.drawn.begin(), p.drawn.end());
   test::Random random(3);
   const double typical = 1.0 / static_cast<double>(p.drawn.size());
@@ -73,8 +73,28 @@ TEST_P(Ssim, GradientAgreesWithDifferences) {
     const double below = p.reference(x);
     x[i] = before;
     const double expected = static_cast<double>(kFactor) * (above - below) / 2e-4;
-    EXPECT_NEAR(static_cast<double>(by_drawn[i] - kAlreadyThere), expected,
+    EXPECT_NEAR(static_cast<double>(by_drawn[i]), expected,
                 2e-3 * std::abs(expected) + 2e-3 * typical + 1e-7);
+  }
+}
+
+TEST_P(Ssim, L1BesideItAgreesWithTheFormula) {
+  const auto& c = GetParam();
+  const Pictures p(4, c.width_px, c.height_px, c.weighted);
+  std::vector<float> by_drawn(p.drawn.size());
+  const double l1 = ssim_l1_backward(p.pair(), 0.0F, 2.0F, by_drawn).l1;
+  double total = 0.0, apart = 0.0;
+  const auto weight = [&p](std::size_t i) { return p.weight.empty() ? 1.0F : p.weight[i / 3]; };
+  for (std::size_t i = 0; i < p.drawn.size(); ++i) {
+    total += static_cast<double>(weight(i));
+    apart += static_cast<double>(weight(i) * std::abs(p.drawn[i] - p.target[i]));
+  }
+  EXPECT_NEAR(l1, apart / total, 1e-5 * apart / total);
+  for (std::size_t i = 0; i < p.drawn.size(); ++i) {
+    const float d = p.drawn[i] - p.target[i];
+    const double expected =
+        2.0 / total * static_cast<double>(weight(i)) * (d > 0.0F ? 1.0 : (d < 0.0F ? -1.0 : 0.0));
+    ASSERT_NEAR(static_cast<double>(by_drawn[i]), expected, 1e-5 / total) << i;
   }
 }
 
@@ -105,7 +125,7 @@ TEST(SsimValue, IsTheSameForEveryNumberOfThreads) {
   const auto with_threads = [&p](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     std::vector<float> by_drawn(p.drawn.size());
-    return std::pair(ssim_backward(p.pair(), 1.0F, by_drawn), by_drawn);
+    return std::pair(ssim_l1_backward(p.pair(), 1.0F, 0.5F, by_drawn).ssim, by_drawn);
   };
   EXPECT_EQ(with_threads(1), with_threads(2));
 }
