@@ -185,14 +185,14 @@ double Optimiser::regularise(const train::GradientBlock& block, std::size_t visi
   return loss;
 }
 
-void Optimiser::move_rows(const splat::View& view, std::span<const splat::Splat> splats,
-                          std::span<const train::SplatBackward> by_splat, StepReport& report) {
+void Optimiser::move_rows(const splat::View& view, const train::BlendGradients& gradients,
+                          StepReport& report) {
   changes_.begin();
   const float half_width_px = 0.5F * static_cast<float>(view.width_px);
-  std::vector<double> losses(splats.size() / train::kGradientBlock + 1, 0.0);
+  std::vector<double> losses(train::gradient_blocks(gradients.by_row.size()), 0.0);
   report.by_pose = train::gaussian_backward_in_blocks(
-      splat::spans_of(cloud_), view, splats, by_splat, rows_scratch_, [&](const train::GradientBlock& block) {
-        losses[block.number] = regularise(block, rows_scratch_.rows.size());
+      splat::spans_of(cloud_), view, gradients.by_row, [&](const train::GradientBlock& block) {
+        losses[block.number] = regularise(block, gradients.seen);
         adam_.step(block.rows, block.values, options_.rates, cloud_);
         for (std::size_t i = 0; i < block.rows.size(); ++i) {
           changes_.touch(block.rows[i]);
@@ -200,7 +200,7 @@ void Optimiser::move_rows(const splat::View& view, std::span<const splat::Splat>
         }
       });
   for (const double loss : losses) report.loss += loss;
-  report.visible = rows_scratch_.rows.size();
+  report.visible = gradients.seen;
 }
 
 Result<StepReport> Optimiser::step(const TrainingView& view) {
@@ -218,11 +218,11 @@ Result<StepReport> Optimiser::step(const TrainingView& view) {
   report.times.forward = watch.lap();
   compare(view, report);
   report.times.loss = watch.lap();
-  const auto by_splat =
+  const auto gradients =
       train::blend_backward(projected_.splats, tiles_, view.view, {p.colour, p.depth_sum_m, p.alpha},
                             {p.by_colour, p.by_depth_sum, p.by_alpha}, scratch_);
   report.times.backward = watch.lap();
-  move_rows(view.view, projected_.splats, by_splat, report);
+  move_rows(view.view, gradients, report);
   report.times.update = watch.lap();
   return report;
 }

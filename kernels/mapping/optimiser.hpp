@@ -94,8 +94,7 @@ class Optimiser {
   /// Adds the regularisers' gradients to a block's, and returns what they cost.
   double regularise(const train::GradientBlock& block, std::size_t visible) const;
   /// From the splats' gradients to moved Gaussians.
-  void move_rows(const splat::View& view, std::span<const splat::Splat> splats,
-                 std::span<const train::SplatBackward> by_splat, StepReport& report);
+  void move_rows(const splat::View& view, const train::BlendGradients& gradients, StepReport& report);
   void keep_rows(std::span<const std::uint32_t> rows);
 
   OptimiserOptions options_;
@@ -112,7 +111,6 @@ class Optimiser {
   splat::TileListsScratch tiles_scratch_;
   splat::TileLists tiles_;
   train::BlendBackwardScratch scratch_;
-  train::GaussianBackwardScratch rows_scratch_;
   std::uint64_t rows_refused_ = 0;
 };
 

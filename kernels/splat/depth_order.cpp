@@ -65,7 +65,10 @@ std::vector<Splat> sorted_by_depth(const std::vector<Splat>& splats) {
   sort_by_depth(keys, other);
   std::vector<Splat> sorted;
   sorted.reserve(splats.size());
-  for (const DepthKey& key : keys) sorted.push_back(splats[key.index]);
+  for (const DepthKey& key : keys) {
+    sorted.push_back(splats[key.index]);
+    sorted.back().order = key.index;
+  }
   return sorted;
 }
 

@@ -23,6 +23,7 @@ struct alignas(64) Splat {
   float half_height_px;
   float reach2;            ///< 2 ln(255 opacity): Mahalanobis distance squared at which alpha is 1/255
   std::uint32_t gaussian;  ///< row in the input
+  std::uint32_t order;     ///< place among the visible ones in the order of rows
 };
 
 /// A splat's place in some order by its depth: positive floats sort as their bits do.

@@ -185,6 +185,7 @@ void project_cpu(const GaussianSpans& gaussians, const View& view, const RenderO
   thread::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
     for (std::size_t i = 0; i < blocks[b].visible; ++i) {
       const std::size_t at = blocks[b].first + i;
+      scratch.splats[at].order = static_cast<std::uint32_t>(starts[b] + i);
       scratch.keys[starts[b] + i] = {std::bit_cast<std::uint32_t>(scratch.splats[at].depth_m),
                                      static_cast<std::uint32_t>(at)};
     }

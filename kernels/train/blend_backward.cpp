@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
+#include <numeric>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/train/blend_backward.cpp"
@@ -265,22 +265,25 @@ SplatBackward finish(const Splat& s, std::span<const TileSums> parts) {
   for (const TileSums& part : parts) {
     for (int k = 0; k < kSums; ++k) m[k] += part.sums[k];
   }
+  const auto by_channel = [&](int c) { return s.rgb[c] > 0.0F ? m[kRed + c] : 0.0F; };
   // alpha = opacity exp(-(xx dx^2 / 2 + xy dx dy + yy dy^2 / 2)) with dx = x - u.
-  return {{s.conic[0] * m[kGx] + s.conic[1] * m[kGy],
-           s.conic[1] * m[kGx] + s.conic[2] * m[kGy],
-           {-0.5F * m[kGxx], -m[kGxy], -0.5F * m[kGyy]},
-           m[kG] / s.opacity,
-           {m[kRed], m[kGreen], m[kBlue]},
-           m[kDepth]},
-          m[kWeight]};
+  return {s.conic[0] * m[kGx] + s.conic[1] * m[kGy],
+          s.conic[1] * m[kGx] + s.conic[2] * m[kGy],
+          {-0.5F * m[kGxx], -m[kGxy], -0.5F * m[kGyy]},
+          m[kG] * (1.0F - s.opacity),
+          {by_channel(0), by_channel(1), by_channel(2)},
+          m[kDepth],
+          {s.conic[0], s.conic[1], s.conic[2]},
+          std::max(s.half_width_px, s.half_height_px),
+          m[kWeight],
+          s.gaussian};
 }
 
 }  // namespace
 
-std::span<const SplatBackward> blend_backward(std::span<const Splat> splats, const splat::TileLists& tiles,
-                                              const splat::View& view, const Pictures& drawn,
-                                              const PictureGradients& by_picture,
-                                              BlendBackwardScratch& scratch) {
+BlendGradients blend_backward(std::span<const Splat> splats, const splat::TileLists& tiles,
+                              const splat::View& view, const Pictures& drawn,
+                              const PictureGradients& by_picture, BlendBackwardScratch& scratch) {
   const auto pixels = static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
   const auto is_picture = [pixels](std::span<const float> values) {
     return values.empty() || values.size() == pixels;
@@ -290,7 +293,7 @@ std::span<const SplatBackward> blend_backward(std::span<const Splat> splats, con
                       is_picture(by_picture.depth_sum) && is_picture(by_picture.alpha),
                   "pictures of the view's size");
   scratch.by_slot.resize(tiles.splats.size());
-  scratch.by_splat.resize(splats.size());
+  scratch.by_row.resize(splats.size());
   thread::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
     const int column = t % tiles.columns;
     const int row = t / tiles.columns;
@@ -307,14 +310,16 @@ std::span<const SplatBackward> blend_backward(std::span<const Splat> splats, con
      tile);
   });
   constexpr std::size_t kBlock = 1024;
-  thread::parallel_for(std::size_t{0}, (splats.size() + kBlock - 1) / kBlock, [&](std::size_t b) {
+  std::vector<std::size_t> seen((splats.size() + kBlock - 1) / kBlock, 0);
+  thread::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t b) {
     for (std::size_t i = b * kBlock; i < std::min(splats.size(), (b + 1) * kBlock); ++i) {
       const std::size_t first = tiles.splat_starts[i];
-      scratch.by_splat[i] =
-          finish(splats[i], std::span(scratch.by_slot).subspan(first, tiles.splat_starts[i + 1] - first));
+      SplatBackward& out = scratch.by_row[splats[i].order];
+      out = finish(splats[i], std::span(scratch.by_slot).subspan(first, tiles.splat_starts[i + 1] - first));
+      seen[b] += out.weight > 0.0F ? 1 : 0;
     }
   });
-  return scratch.by_splat;
+  return {scratch.by_row, std::accumulate(seen.begin(), seen.end(), std::size_t{0})};
 }
 
 }  // namespace edgesplat::train

@@ -3,8 +3,9 @@
 #pragma once
 
 #include "kernels/splat/blend.hpp"
-#include "kernels/train/splat_gradient.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -24,10 +25,18 @@ struct PictureGradients {
   std::span<const float> alpha;      ///< [H,W]
 };
 
-/// What one picture says about one splat.
-struct SplatBackward {
-  SplatGradient<float> gradient;
-  float weight;  ///< sum of its blending weights: how many pixels it fills
+/// What one picture says about one splat: dL by what the blend read of it, and what the way back to its
+/// Gaussian needs.
+struct alignas(64) SplatBackward {
+  float by_u, by_v;   ///< per px
+  float by_conic[3];  ///< xx, xy counted once, yy
+  float by_opacity_logit;
+  float by_rgb[3];         ///< 0 where the colour was cut at 0
+  float by_depth;          ///< per m
+  float conic[3];          ///< as drawn
+  float radius_px;         ///< larger half of its box
+  float weight;            ///< sum of its blending weights: how many pixels it fills
+  std::uint32_t gaussian;  ///< row
 };
 
 /// What one tile says about one splat: a line of cache of sums.
@@ -39,18 +48,22 @@ struct alignas(64) TileSums {
 /// the sums.
 struct BlendBackwardScratch {
   std::vector<TileSums> by_slot;
-  std::vector<SplatBackward> by_splat;
+  std::vector<SplatBackward> by_row;
 };
 
-/// Reverse of splat::blend: gradients of every splat, in the order of `splats`, valid until `scratch` is used
-/// again. Goes front to back like the forward pass and takes what lies behind a splat as what is left of the
-/// pixel's total, so that it needs the pictures and no record of the forward pass. Each tile leaves its sums
-/// in slots of its own, which are added in the order of tiles: the result does not depend on the number of
-/// threads. Lengths must match the view (checked as bugs).
-[[nodiscard]] std::span<const SplatBackward> blend_backward(std::span<const splat::Splat> splats,
-                                                            const splat::TileLists& tiles,
-                                                            const splat::View& view, const Pictures& drawn,
-                                                            const PictureGradients& by_picture,
-                                                            BlendBackwardScratch& scratch);
+struct BlendGradients {
+  std::span<const SplatBackward> by_row;  ///< one a splat, in the order of rows (Splat::order)
+  std::size_t seen = 0;                   ///< those with a weight: the others are hidden
+};
+
+/// Reverse of splat::blend: gradients of every splat, valid until `scratch` is used again. Goes front to back
+/// like the forward pass and takes what lies behind a splat as what is left of the pixel's total, so that it
+/// needs the pictures and no record of the forward pass. Each tile leaves its sums in slots of its own, which
+/// are added in the order of tiles: the result does not depend on the number of threads. Lengths must match
+/// the view (checked as bugs).
+[[nodiscard]] BlendGradients blend_backward(std::span<const splat::Splat> splats,
+                                            const splat::TileLists& tiles, const splat::View& view,
+                                            const Pictures& drawn, const PictureGradients& by_picture,
+                                            BlendBackwardScratch& scratch);
 
 }  // namespace edgesplat::train

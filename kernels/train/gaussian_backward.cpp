@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
-#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/train/gaussian_backward.cpp"
@@ -28,18 +26,16 @@ namespace edgesplat::train {
 
 struct ReverseSource {
   const splat::GaussianSpans& gaussians;
-  std::span<const splat::Splat> splats;
-  std::span<const SplatBackward> by_splat;
   splat::CameraT<float> camera;
   std::array<float, 3> position_m;  ///< of the camera, in map
 };
 
-/// Rows of one block and where their gradients go.
-struct ReverseRows {
-  std::span<const std::uint32_t> splats;
-  std::span<float> values;
-  std::span<Sighting> sightings;
-  PoseGradient& pose;
+/// One block's gradients: in the cache, thread by thread.
+struct BlockMemory {
+  alignas(64) float values[kGradientBlock * ParameterRow::kMaxStride];
+  std::uint32_t rows[kGradientBlock];
+  Sighting sightings[kGradientBlock];
+  std::size_t count;
 };
 
 }  // namespace edgesplat::train
@@ -52,19 +48,19 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t kTerms = 16;  // of SH degree 3; lower degrees are padded
 
-HWY_INLINE void load_lane(const splat::GaussianSpans& g, const splat::Splat& s,
-                          const SplatGradient<float>& by, std::size_t lane, GaussianLanes& lanes) {
-  const std::size_t row = s.gaussian;
+HWY_INLINE void load_lane(const splat::GaussianSpans& g, const SplatBackward& by, std::size_t lane,
+                          GaussianLanes& lanes) {
+  const std::size_t row = by.gaussian;
   for (std::size_t k = 0; k < 3; ++k) {
     lanes.mean[k][lane] = g.means_m[3 * row + k];
     lanes.log_scale[k][lane] = g.log_scales[3 * row + k];
-    lanes.conic[k][lane] = s.conic[k];
-    lanes.by_conic[k][lane] = by.conic[k];
+    lanes.conic[k][lane] = by.conic[k];
+    lanes.by_conic[k][lane] = by.by_conic[k];
   }
   for (std::size_t k = 0; k < 4; ++k) lanes.quat[k][lane] = g.quats_xyzw[4 * row + k];
-  lanes.by_u[lane] = by.u;
-  lanes.by_v[lane] = by.v;
-  lanes.by_depth[lane] = by.depth;
+  lanes.by_u[lane] = by.by_u;
+  lanes.by_v[lane] = by.by_v;
+  lanes.by_depth[lane] = by.by_depth;
 }
 
 /// dL by the SH coefficients of one Gaussian, from those by its colour, and by each term of the basis: what
@@ -95,18 +91,16 @@ HWY_INLINE void reverse_basis(int degree, const float* sh, const float* basis, c
 }
 
 /// The colour's share of one Gaussian: fills its SH and adds to its mean and to the pose.
-HWY_INLINE void reverse_colour(const ReverseSource& source, const splat::Splat& s,
-                               const SplatGradient<float>& by, float* out, float* pose) {
+HWY_INLINE void reverse_colour(const ReverseSource& source, const SplatBackward& by, float* out,
+                               float* pose) {
   const splat::GaussianSpans& g = source.gaussians;
-  // A channel that the forward pass cut at 0 has no gradient.
-  float by_rgb[3];
-  for (int c = 0; c < 3; ++c) by_rgb[c] = s.rgb[c] > 0.0F ? by.rgb[c] : 0.0F;
   if (g.sh_degree == 0) {  // the same from everywhere
     constexpr float kConstant = 0.28209479177387814F;
-    for (int c = 0; c < 3; ++c) out[ParameterRow::kSh + static_cast<std::size_t>(c)] = kConstant * by_rgb[c];
+    for (int c = 0; c < 3; ++c)
+      out[ParameterRow::kSh + static_cast<std::size_t>(c)] = kConstant * by.by_rgb[c];
     return;
   }
-  const float* mean = &g.means_m[3 * std::size_t{s.gaussian}];
+  const float* mean = &g.means_m[3 * std::size_t{by.gaussian}];
   const float* position = source.position_m.data();
   const float offset[3] = {mean[0] - position[0], mean[1] - position[1], mean[2] - position[2]};
   const float length = std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
@@ -114,8 +108,8 @@ HWY_INLINE void reverse_colour(const ReverseSource& source, const splat::Splat& 
   alignas(64) float basis[kTerms] = {};
   alignas(64) float by_basis[kTerms];
   splat::sh_basis(g.sh_degree, towards[0], towards[1], towards[2], basis);
-  reverse_basis(g.sh_degree, &g.sh[g.sh_floats_each() * s.gaussian], basis, by_rgb, out + ParameterRow::kSh,
-                by_basis);
+  reverse_basis(g.sh_degree, &g.sh[g.sh_floats_each() * by.gaussian], basis, by.by_rgb,
+                out + ParameterRow::kSh, by_basis);
   float by_towards[3];
   sh_direction_backward(g.sh_degree, towards[0], towards[1], towards[2], by_basis, by_towards);
   const float radial = by_towards[0] * towards[0] + by_towards[1] * towards[1] + by_towards[2] * towards[2];
@@ -147,18 +141,18 @@ HWY_INLINE bool all_finite(const float* values, std::size_t whole_vectors_of_16)
 
 /// Fills `out` (a ParameterRow) from one lane and adds to the pose's gradient; zeros where a value is not
 /// finite.
-HWY_INLINE void store_lane(const ReverseSource& source, const splat::Splat& s, const SplatGradient<float>& by,
-                           const GaussianLanes& lanes, std::size_t lane, float* out, PoseGradient& pose) {
+HWY_INLINE void store_lane(const ReverseSource& source, const SplatBackward& by, const GaussianLanes& lanes,
+                           std::size_t lane, float* out, PoseGradient& pose) {
   const std::size_t stride = ParameterRow::stride(source.gaussians.sh_degree);
   for (std::size_t k = 0; k < 3; ++k) {
     out[ParameterRow::kMean + k] = lanes.by_mean[k][lane];
     out[ParameterRow::kLogScale + k] = lanes.by_log_scale[k][lane];
   }
   for (std::size_t k = 0; k < 4; ++k) out[ParameterRow::kQuat + k] = lanes.by_quat[k][lane];
-  out[ParameterRow::kOpacity] = by.opacity * s.opacity * (1.0F - s.opacity);
+  out[ParameterRow::kOpacity] = by.by_opacity_logit;
   float by_pose[6];
   for (std::size_t k = 0; k < 6; ++k) by_pose[k] = lanes.pose[k][lane];
-  reverse_colour(source, s, by, out, by_pose);
+  reverse_colour(source, by, out, by_pose);
   const std::size_t used = ParameterRow::size(source.gaussians.sh_degree);
   std::fill(out + used, out + stride, 0.0F);
   float pose_apart = 0.0F;
@@ -175,27 +169,26 @@ HWY_INLINE void store_lane(const ReverseSource& source, const splat::Splat& s, c
   reverse_lanes_inline(camera, lanes);
 }
 
-void reverse_rows(const ReverseSource& source, const ReverseRows& rows) {
+/// `splats` is the block's share of all of them.
+void reverse_rows(const ReverseSource& source, std::span<const SplatBackward> splats, BlockMemory& out,
+                  PoseGradient& pose) {
   constexpr std::size_t kLanes = GaussianLanes::kLanes;
   const std::size_t stride = ParameterRow::stride(source.gaussians.sh_degree);
+  const SplatBackward* seen[kGradientBlock];
+  out.count = 0;
+  for (const SplatBackward& by : splats) {
+    if (by.weight > 0.0F) seen[out.count++] = &by;
+  }
   GaussianLanes lanes{};
-  for (std::size_t first = 0; first < rows.splats.size(); first += kLanes) {
-    const std::size_t count = std::min(kLanes, rows.splats.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      // Splats lie in the order of depth, so all over memory.
-      const std::size_t ahead = rows.splats[std::min(first + i + kLanes, rows.splats.size() - 1)];
-      __builtin_prefetch(&source.splats[ahead]);
-      __builtin_prefetch(&source.by_splat[ahead]);
-      const std::size_t k = rows.splats[first + i];
-      load_lane(source.gaussians, source.splats[k], source.by_splat[k].gradient, i, lanes);
-    }
+  for (std::size_t first = 0; first < out.count; first += kLanes) {
+    const std::size_t count = std::min(kLanes, out.count - first);
+    for (std::size_t i = 0; i < count; ++i) load_lane(source.gaussians, *seen[first + i], i, lanes);
     reverse_lanes(source.camera, lanes);
     for (std::size_t i = 0; i < count; ++i) {
-      const splat::Splat& s = source.splats[rows.splats[first + i]];
-      const SplatBackward& by = source.by_splat[rows.splats[first + i]];
-      store_lane(source, s, by.gradient, lanes, i, &rows.values[(first + i) * stride], rows.pose);
-      const float centre = std::sqrt(by.gradient.u * by.gradient.u + by.gradient.v * by.gradient.v);
-      rows.sightings[first + i] = {centre, by.weight, std::max(s.half_width_px, s.half_height_px)};
+      const SplatBackward& by = *seen[first + i];
+      store_lane(source, by, lanes, i, &out.values[(first + i) * stride], pose);
+      out.rows[first + i] = by.gaussian;
+      out.sightings[first + i] = {std::sqrt(by.by_u * by.by_u + by.by_v * by.by_v), by.weight, by.radius_px};
     }
   }
 }
@@ -209,52 +202,21 @@ namespace {
 
 HWY_EXPORT(reverse_rows);
 
-constexpr auto kUnseen = std::numeric_limits<std::uint32_t>::max();
-
-/// Which splat shows each row of the cloud. Only splats that some pixel shows: those hidden behind others
-/// have no gradient, and stay as they are.
-void find_rows(std::span<const splat::Splat> splats, std::span<const SplatBackward> by_splat,
-               std::size_t gaussians, GaussianBackwardScratch& scratch) {
-  scratch.splat_of.assign(gaussians, kUnseen);
-  for (std::size_t i = 0; i < splats.size(); ++i) {
-    if (by_splat[i].weight > 0.0F) scratch.splat_of[splats[i].gaussian] = static_cast<std::uint32_t>(i);
-  }
-  scratch.rows.clear();
-  scratch.splats.clear();
-  for (std::size_t row = 0; row < gaussians; ++row) {
-    if (scratch.splat_of[row] == kUnseen) continue;
-    scratch.rows.push_back(static_cast<std::uint32_t>(row));
-    scratch.splats.push_back(scratch.splat_of[row]);
-  }
-}
-
-/// One block's gradients: in the cache, thread by thread.
-struct BlockMemory {
-  alignas(64) float values[kGradientBlock * ParameterRow::kMaxStride];
-  Sighting sightings[kGradientBlock];
-};
-
 }  // namespace
 
 PoseGradient gaussian_backward_in_blocks(const splat::GaussianSpans& gaussians, const splat::View& view,
-                                         std::span<const splat::Splat> splats,
-                                         std::span<const SplatBackward> by_splat,
-                                         GaussianBackwardScratch& scratch, const BlockTaker& take) {
-  EDGESPLAT_CHECK(gaussians.consistent() && splats.size() == by_splat.size(), "a gradient for every splat");
-  find_rows(splats, by_splat, gaussians.size(), scratch);
+                                         std::span<const SplatBackward> by_row, const BlockTaker& take) {
+  EDGESPLAT_CHECK(gaussians.consistent(), "Gaussian arrays of one length");
   const std::size_t stride = ParameterRow::stride(gaussians.sh_degree);
-  const std::size_t blocks = (scratch.rows.size() + kGradientBlock - 1) / kGradientBlock;
-  std::vector<PoseGradient> poses(blocks, PoseGradient{});
-  const ReverseSource source{gaussians, splats, by_splat, splat::camera_of(view), view.position};
-  thread::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+  std::vector<PoseGradient> poses(gradient_blocks(by_row.size()), PoseGradient{});
+  const ReverseSource source{gaussians, splat::camera_of(view), view.position};
+  thread::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t b) {
     thread_local BlockMemory memory;
     const std::size_t first = b * kGradientBlock;
-    const std::size_t count = std::min(kGradientBlock, scratch.rows.size() - first);
-    const std::span values(memory.values, count * stride);
-    const std::span sightings(memory.sightings, count);
     HWY_DYNAMIC_DISPATCH(reverse_rows)
-    (source, {std::span(scratch.splats).subspan(first, count), values, sightings, poses[b]});
-    take({b, std::span(scratch.rows).subspan(first, count), values, sightings});
+    (source, by_row.subspan(first, std::min(kGradientBlock, by_row.size() - first)), memory, poses[b]);
+    const std::size_t count = memory.count;
+    take({b, {memory.rows, count}, {memory.values, count * stride}, {memory.sightings, count}});
   });
   PoseGradient pose{};
   for (const PoseGradient& part : poses) {
@@ -264,22 +226,21 @@ PoseGradient gaussian_backward_in_blocks(const splat::GaussianSpans& gaussians, 
 }
 
 GaussianGradients gaussian_backward(const splat::GaussianSpans& gaussians, const splat::View& view,
-                                    std::span<const splat::Splat> splats,
-                                    std::span<const SplatBackward> by_splat) {
+                                    std::span<const SplatBackward> by_row) {
+  std::vector<GaussianGradients> parts(gradient_blocks(by_row.size()));
   GaussianGradients out;
+  out.pose = gaussian_backward_in_blocks(gaussians, view, by_row, [&parts](const GradientBlock& block) {
+    GaussianGradients& part = parts[block.number];
+    part.rows.assign(block.rows.begin(), block.rows.end());
+    part.values.assign(block.values.begin(), block.values.end());
+    part.sightings.assign(block.sightings.begin(), block.sightings.end());
+  });
   out.stride = ParameterRow::stride(gaussians.sh_degree);
-  out.values.resize(splats.size() * out.stride);
-  out.sightings.resize(splats.size());
-  GaussianBackwardScratch scratch;
-  out.pose = gaussian_backward_in_blocks(gaussians, view, splats, by_splat, scratch,
-                                         [&out](const GradientBlock& block) {
-                                           const std::size_t first = block.number * kGradientBlock;
-                                           std::ranges::copy(block.values, &out.values[first * out.stride]);
-                                           std::ranges::copy(block.sightings, &out.sightings[first]);
-                                         });
-  out.rows = std::move(scratch.rows);
-  out.values.resize(out.rows.size() * out.stride);
-  out.sightings.resize(out.rows.size());
+  for (const GaussianGradients& part : parts) {
+    out.rows.insert(out.rows.end(), part.rows.begin(), part.rows.end());
+    out.values.insert(out.values.end(), part.values.begin(), part.values.end());
+    out.sightings.insert(out.sightings.end(), part.sightings.begin(), part.sightings.end());
+  }
   return out;
 }
 

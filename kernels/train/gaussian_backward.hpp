@@ -36,24 +36,19 @@ struct GradientBlock {
 /// Called from several threads, each time with other rows; a block's memory is used again afterwards.
 using BlockTaker = std::function<void(const GradientBlock&)>;
 
-/// Rows of a block, less in the last one.
+/// Rows of a block at most.
 inline constexpr std::size_t kGradientBlock = 256;
+[[nodiscard]] inline std::size_t gradient_blocks(std::size_t splats) {
+  return (splats + kGradientBlock - 1) / kGradientBlock;
+}
 
-/// Memory that one call leaves for the next.
-struct GaussianBackwardScratch {
-  std::vector<std::uint32_t> splat_of;  ///< [N]
-  std::vector<std::uint32_t> rows;      ///< [V] Gaussians that the picture shows, ascending: a result
-  std::vector<std::uint32_t> splats;    ///< [V] the splat of each
-};
-
-/// Reverse of splat::project: from gradients by the splats (blend_backward, same order as `splats`) to those
-/// by the Gaussians, block by block while they are in the cache. A taker may move the Gaussians of its block.
-/// A Gaussian whose gradient is not finite gets zeros. `scratch.rows` is complete before the first block is
-/// taken. Deterministic whatever the number of threads.
+/// Reverse of splat::project: from gradients by the splats (in the order of rows, as blend_backward gives
+/// them) to those by the Gaussians, block by block while they are in the cache. Only splats that some pixel
+/// shows: those hidden behind others have no gradient, and stay as they are. A taker may move the Gaussians
+/// of its block. A Gaussian whose gradient is not finite gets zeros. Deterministic whatever the number of
+/// threads.
 PoseGradient gaussian_backward_in_blocks(const splat::GaussianSpans& gaussians, const splat::View& view,
-                                         std::span<const splat::Splat> splats,
-                                         std::span<const SplatBackward> by_splat,
-                                         GaussianBackwardScratch& scratch, const BlockTaker& take);
+                                         std::span<const SplatBackward> by_row, const BlockTaker& take);
 
 /// All blocks in one piece.
 struct GaussianGradients {
@@ -69,7 +64,6 @@ struct GaussianGradients {
 };
 [[nodiscard]] GaussianGradients gaussian_backward(const splat::GaussianSpans& gaussians,
                                                   const splat::View& view,
-                                                  std::span<const splat::Splat> splats,
-                                                  std::span<const SplatBackward> by_splat);
+                                                  std::span<const SplatBackward> by_row);
 
 }  // namespace edgesplat::train

@@ -54,9 +54,9 @@ GaussianGradients gradients_of(const gaussian::GaussianCloud& cloud, const splat
   std::vector<float> colour(loss.colour.size()), depth(loss.depth.size()), alpha(loss.alpha.size());
   splat::blend(projected.splats, tiles, view, options, {colour, depth, alpha});
   BlendBackwardScratch scratch;
-  const auto by_splat = blend_backward(projected.splats, tiles, view, {colour, depth, alpha},
-                                       {loss.colour, loss.depth, loss.alpha}, scratch);
-  return gaussian_backward(splat::spans_of(cloud), view, projected.splats, by_splat);
+  const auto by = blend_backward(projected.splats, tiles, view, {colour, depth, alpha},
+                                 {loss.colour, loss.depth, loss.alpha}, scratch);
+  return gaussian_backward(splat::spans_of(cloud), view, by.by_row);
 }
 
 struct ChainCase {
