@@ -43,17 +43,14 @@ struct BlendScratch {
 
 /// Where a tile goes.
 struct TileTarget {
-  int x0_px, y0_px;         ///< first pixel
-  int width_px, height_px;  ///< of what lies in the picture
-  int stride_px;            ///< the picture's width
+  TilePixels place;
   std::array<float, 3> background;
   const BlendOutputs& out;
 };
 
 struct BlendTask {
   std::span<const Splat> splats;
-  std::span<const std::uint32_t> list;
-  std::span<const std::uint16_t> reached;
+  std::span<const TileEntry> list;
   float centre_x_px, centre_y_px;
 };
 
@@ -103,17 +100,17 @@ bool add_to_block(const BlendScratch& scratch, int block, BlendTile& tile) {
 }
 
 void blend_tile(const BlendTask& task, BlendScratch& scratch, BlendTile& tile) {
-  constexpr std::size_t kAhead = 8;  // a tile's splats lie all over memory
-  std::uint32_t open = (1U << kBlocks) - 1;
+  constexpr std::size_t kAhead = 16;  // a tile's splats lie all over memory
+  std::uint32_t open = ~0U >> (32U - kBlocks);
   for (std::size_t first = 0; first < task.list.size() && open != 0; first += kChunk) {
     const std::size_t count = std::min(kChunk, task.list.size() - first);
     std::memset(scratch.count, 0, sizeof(scratch.count));
     for (std::size_t i = 0; i < count; ++i) {
       if (first + i + kAhead < task.list.size())
-        __builtin_prefetch(&task.splats[task.list[first + i + kAhead]]);
-      set_tile_splat(task.splats[task.list[first + i]], task.centre_x_px, task.centre_y_px,
-                     scratch.splats[i]);
-      for (std::uint32_t todo = task.reached[first + i] & open; todo != 0; todo &= todo - 1) {
+        __builtin_prefetch(&task.splats[task.list[first + i + kAhead].splat]);
+      const TileEntry& entry = task.list[first + i];
+      set_tile_splat(task.splats[entry.splat], task.centre_x_px, task.centre_y_px, scratch.splats[i]);
+      for (std::uint32_t todo = entry.reached & open; todo != 0; todo &= todo - 1) {
         const int block = std::countr_zero(todo);
         scratch.list[block][scratch.count[block]++] = static_cast<std::uint8_t>(i);
       }
@@ -145,14 +142,12 @@ void write_tile(const BlendTile& tile, const TileTarget& to) {
   const hn::CappedTag<float, kBlockPx> run;
   const hn::CappedTag<float, 1> single;
   const int step = static_cast<int>(hn::Lanes(run));
-  for (int y = 0; y < to.height_px; ++y) {
-    const std::size_t row = static_cast<std::size_t>(to.y0_px + y) * static_cast<std::size_t>(to.stride_px) +
-                            static_cast<std::size_t>(to.x0_px);
+  for (int y = 0; y < to.place.height_px; ++y) {
     int x = 0;
-    for (; x + step <= to.width_px; x += step)
-      write_run(run, tile, block_of(x, y), pixel_of(x, y), to, row + static_cast<std::size_t>(x));
-    for (; x < to.width_px; ++x)
-      write_run(single, tile, block_of(x, y), pixel_of(x, y), to, row + static_cast<std::size_t>(x));
+    for (; x + step <= to.place.width_px; x += step)
+      write_run(run, tile, block_of(x, y), pixel_of(x, y), to, to.place.at(x, y));
+    for (; x < to.place.width_px; ++x)
+      write_run(single, tile, block_of(x, y), pixel_of(x, y), to, to.place.at(x, y));
   }
 }
 
@@ -175,20 +170,14 @@ void clear(BlendTile& tile) {
 
 void blend(std::span<const Splat> splats, const TileLists& tiles, const View& view,
            const RenderOptions& options, const BlendOutputs& out) {
-  thread::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
-    const int column = t % tiles.columns;
-    const int row = t / tiles.columns;
+  thread::parallel_for(0, tiles.tiles(), [&](int t) {
+    const TilePixels place = tile_pixels(tiles, t, view);
     BlendTile tile;
     BlendScratch scratch;
     clear(tile);
     HWY_DYNAMIC_DISPATCH(blend_tile)
-    ({splats, tiles.tile(column, row), tiles.tile_reached(column, row),
-      static_cast<float>(column * kTilePx) + kTileHalfPx, static_cast<float>(row * kTilePx) + kTileHalfPx},
-     scratch, tile);
-    const int x0 = column * kTilePx, y0 = row * kTilePx;
-    HWY_DYNAMIC_DISPATCH(write_tile)
-    (tile, {x0, y0, std::min(kTilePx, view.width_px - x0), std::min(kTilePx, view.height_px - y0),
-            view.width_px, options.background, out});
+    ({splats, tiles.tile(t), place.centre_x_px(), place.centre_y_px()}, scratch, tile);
+    HWY_DYNAMIC_DISPATCH(write_tile)(tile, {place, options.background, out});
   });
 }
 

@@ -58,9 +58,9 @@ struct PixelPlaces {
 };
 HWY_INLINE PixelPlaces places_of(D d, int block, int part) {
   const std::size_t first = static_cast<std::size_t>(part * kLanes);
-  return {hn::Load(d, kTilePlaces.x[block] + first), hn::Load(d, kTilePlaces.y[block] + first),
-          hn::Load(d, kTilePlaces.xx[block] + first), hn::Load(d, kTilePlaces.xy[block] + first),
-          hn::Load(d, kTilePlaces.yy[block] + first)};
+  return {hn::Load(d, kTilePlaces.x.at[block] + first), hn::Load(d, kTilePlaces.y.at[block] + first),
+          hn::Load(d, kTilePlaces.xx.at[block] + first), hn::Load(d, kTilePlaces.xy.at[block] + first),
+          hn::Load(d, kTilePlaces.yy.at[block] + first)};
 }
 
 /// Opacity times falloff of one splat at the pixels of a register, before it is cut at kMaxAlpha and dropped

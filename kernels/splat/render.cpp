@@ -13,7 +13,7 @@ Result<RenderStats> render(core::Backend backend, const GaussianSpans& gaussians
   EDGESPLAT_TRY(const Projected projected, project(backend, gaussians, view, options));
   const TileLists tiles = make_tile_lists(projected.splats, view.width_px, view.height_px);
   blend(projected.splats, tiles, view, options, out);
-  return RenderStats{projected.splats.size(), tiles.splats.size(), projected.not_finite};
+  return RenderStats{projected.splats.size(), tiles.entries.size(), projected.not_finite};
 }
 
 }  // namespace edgesplat::splat

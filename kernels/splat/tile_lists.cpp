@@ -25,11 +25,11 @@ struct TileRange {
   int first, last;  ///< [first, last)
 };
 
-inline TileRange tiles_touched(float centre_px, float half_px, int tiles) {
-  const auto clamp_tile = [tiles](float px) {
-    return static_cast<int>(std::clamp(px / static_cast<float>(kTilePx), -1.0F, static_cast<float>(tiles)));
+inline TileRange tiles_touched(float centre_px, float half_px, int tile_px, int tiles) {
+  const auto clamp_tile = [tile_px, tiles](float px) {
+    return static_cast<int>(std::clamp(px / static_cast<float>(tile_px), -1.0F, static_cast<float>(tiles)));
   };
-  // Tile t covers pixel centres [16 t, 16 t + 15], so edges [16 t - 0.5, 16 t + 15.5].
+  // Tile t covers pixel centres [n t, n t + n - 1], so edges half a pixel outside of them.
   const float low = centre_px - half_px + 0.5F;
   const float high = centre_px + half_px + 0.5F;
   return {std::max(0, low < 0 ? 0 : clamp_tile(low)), high < 0 ? 0 : std::min(tiles, clamp_tile(high) + 1)};
@@ -43,8 +43,8 @@ struct BlockCorners {
 constexpr BlockCorners block_corners() {
   BlockCorners corners{};
   for (int b = 0; b < kBlocks; ++b) {
-    corners.x[b] = static_cast<float>(b % kBlockPx * kBlockPx);
-    corners.y[b] = static_cast<float>(b / kBlockPx * kBlockPx);
+    corners.x[b] = static_cast<float>(b % kBlockColumns * kBlockPx);
+    corners.y[b] = static_cast<float>(b / kBlockColumns * kBlockPx);
   }
   return corners;
 }
@@ -68,8 +68,7 @@ HWY_INLINE std::uint32_t blocks_reached(const Splat& s, float left, float top) {
   // A hair more than the blend's own threshold, so that rounding never loses a pixel.
   const V reach2 = hn::Set(d, s.reach2 * 1.0001F + 1e-4F);
   std::uint32_t reached = 0;
-  for (int part = 0; part < kParts; ++part) {
-    const std::size_t first = static_cast<std::size_t>(part * kLanes);
+  for (std::size_t first = 0; first < kBlocks; first += kLanes) {
     const V x_low = hn::Add(hn::Set(d, left), hn::Load(d, kBlockCorners.x + first));
     const V y_low = hn::Add(hn::Set(d, top), hn::Load(d, kBlockCorners.y + first));
     const V x_high = hn::Add(x_low, span), y_high = hn::Add(y_low, span);
@@ -82,8 +81,7 @@ HWY_INLINE std::uint32_t blocks_reached(const Splat& s, float left, float top) {
     const auto out = hn::Gt(hn::Min(at_x, at_y), reach2);
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(d, hn::Not(out), bits);
-    reached |= (static_cast<std::uint32_t>(bits[0]) | static_cast<std::uint32_t>(bits[1]) << 8U)
-               << static_cast<unsigned>(part * kLanes);
+    reached |= (static_cast<std::uint32_t>(bits[0]) | static_cast<std::uint32_t>(bits[1]) << 8U) << first;
   }
   return reached;
 }
@@ -96,17 +94,17 @@ void find_tiles(std::span<const Splat> splats, int columns, int rows, TilePart& 
   part.counts.reserve(part.last - part.first);
   for (std::size_t i = part.first; i < part.last; ++i) {
     const Splat& s = splats[i];
-    const TileRange across = tiles_touched(s.u_px, s.half_width_px, columns);
-    const TileRange down = tiles_touched(s.v_px, s.half_height_px, rows);
+    const TileRange across = tiles_touched(s.u_px, s.half_width_px, kTileWidthPx, columns);
+    const TileRange down = tiles_touched(s.v_px, s.half_height_px, kTileHeightPx, rows);
     const std::size_t before = part.tiles.size();
     for (int row = down.first; row < down.last; ++row) {
       for (int column = across.first; column < across.last; ++column) {
-        const std::uint32_t reached = blocks_reached(s, static_cast<float>(column * kTilePx) - s.u_px,
-                                                     static_cast<float>(row * kTilePx) - s.v_px);
+        const std::uint32_t reached = blocks_reached(s, static_cast<float>(column * kTileWidthPx) - s.u_px,
+                                                     static_cast<float>(row * kTileHeightPx) - s.v_px);
         if (reached == 0) continue;
         const auto tile = static_cast<std::uint32_t>(row * columns + column);
         part.tiles.push_back(tile);
-        part.reached.push_back(static_cast<std::uint16_t>(reached));
+        part.reached.push_back(reached);
         ++part.places[tile];
       }
     }
@@ -137,9 +135,7 @@ void lay_out(std::vector<TilePart>& parts, TileLists& lists) {
     for (TilePart& part : parts) next += std::exchange(part.places[t], next);
   }
   lists.starts[tiles] = next;
-  lists.splats.resize(next);
-  lists.reached.resize(next);
-  lists.slots.resize(next);
+  lists.entries.resize(next);
 }
 
 void number_slots(const std::vector<TilePart>& parts, TileLists& lists) {
@@ -159,10 +155,8 @@ void deal_out(TilePart& part, TileLists& lists) {
   std::size_t entry = 0;
   for (std::size_t i = part.first; i < part.last; ++i) {
     for (std::uint32_t k = 0; k < part.counts[i - part.first]; ++k, ++entry, ++slot) {
-      const std::uint32_t place = part.places[part.tiles[entry]]++;
-      lists.splats[place] = static_cast<std::uint32_t>(i);
-      lists.reached[place] = part.reached[entry];
-      lists.slots[place] = slot;
+      lists.entries[part.places[part.tiles[entry]]++] = {static_cast<std::uint32_t>(i), slot,
+                                                         part.reached[entry]};
     }
   }
 }
@@ -171,8 +165,8 @@ void deal_out(TilePart& part, TileLists& lists) {
 
 void make_tile_lists(std::span<const Splat> splats, int width_px, int height_px, TileListsScratch& scratch,
                      TileLists& out) {
-  out.columns = (width_px + kTilePx - 1) / kTilePx;
-  out.rows = (height_px + kTilePx - 1) / kTilePx;
+  out.columns = (width_px + kTileWidthPx - 1) / kTileWidthPx;
+  out.rows = (height_px + kTileHeightPx - 1) / kTileHeightPx;
   std::vector<TilePart>& parts = scratch.parts;
   parts.resize(kRuns);
   thread::parallel_for(std::size_t{0}, kRuns, [&](std::size_t p) {

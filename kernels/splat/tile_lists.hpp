@@ -10,38 +10,35 @@
 
 namespace edgesplat::splat {
 
-inline constexpr int kTilePx = 16;
+/// Tiles of the CPU backend: wide, so that what is done once for a splat in a tile is done seldom, yet the
+/// pixels of a tile fit the first cache beside its splats.
+inline constexpr int kTileWidthPx = 32;
+inline constexpr int kTileHeightPx = 16;
+
+/// One splat in one tile.
+struct TileEntry {
+  std::uint32_t splat;  ///< row of Projected::splats
+  /// A number such that the entries of splat i have [splat_starts[i], splat_starts[i + 1]) in the order of
+  /// tiles: where a tile leaves what only the sum over a splat's tiles gives, without locks and in a fixed
+  /// order.
+  std::uint32_t slot;
+  /// Which of the tile's blocks of 4x4 pixels it reaches, bit 8 row + column; never 0.
+  std::uint32_t reached;
+};
 
 /// Which splats touch which tile of the picture, nearest first in each tile.
 struct TileLists {
   int columns = 0;
   int rows = 0;
-  std::vector<std::uint32_t> starts;  ///< [columns * rows + 1] into `splats`
-  std::vector<std::uint32_t> splats;  ///< rows of Projected::splats
-  /// For each entry of `splats` which of the tile's 16 blocks of 4x4 pixels it reaches, bit 4 row + column;
-  /// never 0.
-  std::vector<std::uint16_t> reached;
-  /// A number for each entry of `splats` such that the entries of splat i have [splat_starts[i],
-  /// splat_starts[i + 1]) in the order of tiles: where a tile leaves what only the sum over a splat's tiles
-  /// gives, without locks and in a fixed order.
-  std::vector<std::uint32_t> slots;
+  std::vector<std::uint32_t> starts;  ///< [columns * rows + 1] into `entries`
+  std::vector<TileEntry> entries;
   std::vector<std::uint32_t> splat_starts;  ///< [splats given + 1]
 
-  [[nodiscard]] std::span<const std::uint32_t> tile(int column, int row) const {
-    return of_tile(splats, column, row);
-  }
-  [[nodiscard]] std::span<const std::uint16_t> tile_reached(int column, int row) const {
-    return of_tile(reached, column, row);
-  }
-  [[nodiscard]] std::span<const std::uint32_t> tile_slots(int column, int row) const {
-    return of_tile(slots, column, row);
-  }
-
- private:
-  template <typename T>
-  [[nodiscard]] std::span<const T> of_tile(const std::vector<T>& entries, int column, int row) const {
-    const auto t = static_cast<std::size_t>(row * columns + column);
-    return {entries.data() + starts[t], starts[t + 1] - starts[t]};
+  [[nodiscard]] int tiles() const { return columns * rows; }
+  /// Row by row.
+  [[nodiscard]] std::span<const TileEntry> tile(int t) const {
+    const auto i = static_cast<std::size_t>(t);
+    return {entries.data() + starts[i], starts[i + 1] - starts[i]};
   }
 };
 
@@ -49,7 +46,7 @@ struct TileLists {
 struct TilePart {
   std::size_t first = 0, last = 0;     ///< splats [first, last)
   std::vector<std::uint32_t> tiles;    ///< splat by splat
-  std::vector<std::uint16_t> reached;  ///< blocks, one an entry of `tiles`
+  std::vector<std::uint32_t> reached;  ///< blocks, one an entry of `tiles`
   std::vector<std::uint32_t> counts;   ///< of tiles, one a splat
   std::vector<std::uint32_t> places;   ///< one a tile: first how many, then where the next goes
 };

@@ -38,18 +38,14 @@ enum Sum { kG, kGx, kGy, kGxx, kGxy, kGyy, kRed, kGreen, kBlue, kDepth, kWeight,
 
 /// Where a tile's pixels come from.
 struct TileSource {
-  int x0_px, y0_px;         ///< first pixel
-  int width_px, height_px;  ///< of what lies in the picture
-  int stride_px;            ///< the picture's width
+  splat::TilePixels place;
   const Pictures& drawn;
   const PictureGradients& by_picture;
 };
 
 struct ReverseTask {
   std::span<const splat::Splat> splats;
-  std::span<const std::uint32_t> list;
-  std::span<const std::uint16_t> reached;
-  std::span<const std::uint32_t> slots;
+  std::span<const splat::TileEntry> list;
   std::span<TileSums> by_slot;
   float centre_x_px, centre_y_px;
 };
@@ -191,21 +187,15 @@ HWY_INLINE void load_run(Run run, const TileSource& from, std::size_t at, int bl
 void load_tile(const TileSource& from, ReverseTile& tile) {
   const hn::CappedTag<float, splat::kBlockPx> run;
   const hn::CappedTag<float, 1> single;
+  const splat::TilePixels& place = from.place;
   const int step = static_cast<int>(hn::Lanes(run));
-  if (from.width_px < splat::kTilePx || from.height_px < splat::kTilePx) tile = {};
-  for (int y = 0; y < from.height_px; ++y) {
-    const std::size_t row =
-        static_cast<std::size_t>(from.y0_px + y) * static_cast<std::size_t>(from.stride_px) +
-        static_cast<std::size_t>(from.x0_px);
+  if (place.width_px < splat::kTileWidthPx || place.height_px < splat::kTileHeightPx) tile = {};
+  for (int y = 0; y < place.height_px; ++y) {
     int x = 0;
-    for (; x + step <= from.width_px; x += step) {
-      load_run(run, from, row + static_cast<std::size_t>(x), splat::block_of(x, y), splat::pixel_of(x, y),
-               tile);
-    }
-    for (; x < from.width_px; ++x) {
-      load_run(single, from, row + static_cast<std::size_t>(x), splat::block_of(x, y), splat::pixel_of(x, y),
-               tile);
-    }
+    for (; x + step <= place.width_px; x += step)
+      load_run(run, from, place.at(x, y), splat::block_of(x, y), splat::pixel_of(x, y), tile);
+    for (; x < place.width_px; ++x)
+      load_run(single, from, place.at(x, y), splat::block_of(x, y), splat::pixel_of(x, y), tile);
   }
 }
 
@@ -230,21 +220,21 @@ void reverse_tile(const ReverseTask& task, ReverseTile& tile) {
   std::size_t i = 0;
   for (; i < task.list.size() && open != 0; ++i) {
     if (i + kAhead < task.list.size()) {
-      __builtin_prefetch(&task.splats[task.list[i + kAhead]]);
-      __builtin_prefetch(&task.by_slot[task.slots[i + kAhead]], 1);
+      __builtin_prefetch(&task.splats[task.list[i + kAhead].splat]);
+      __builtin_prefetch(&task.by_slot[task.list[i + kAhead].slot], 1);
     }
-    const splat::Splat& source = task.splats[task.list[i]];
+    const splat::Splat& source = task.splats[task.list[i].splat];
     splat::TileSplat s;
     splat::set_tile_splat(source, task.centre_x_px, task.centre_y_px, s);
     LaneSums sums = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
-    for (std::uint32_t todo = task.reached[i] & open; todo != 0; todo &= todo - 1)
+    for (std::uint32_t todo = task.list[i].reached & open; todo != 0; todo &= todo - 1)
       add_block(s, std::countr_zero(todo), tile, sums);
-    TileSums& out = task.by_slot[task.slots[i]];
+    TileSums& out = task.by_slot[task.list[i].slot];
     add_up(sums, out);
     recentre(source.u_px - task.centre_x_px, source.v_px - task.centre_y_px, out);
     if (i % kCheckEvery == kCheckEvery - 1) open = open_blocks(tile.transmittance);
   }
-  for (; i < task.list.size(); ++i) task.by_slot[task.slots[i]] = {};
+  for (; i < task.list.size(); ++i) task.by_slot[task.list[i].slot] = {};
 }
 
 }  // namespace edgesplat::train::HWY_NAMESPACE
@@ -257,7 +247,6 @@ namespace {
 HWY_EXPORT(load_tile);
 HWY_EXPORT(reverse_tile);
 
-using splat::kTilePx;
 using splat::Splat;
 
 SplatBackward finish(const Splat& s, std::span<const TileSums> parts) {
@@ -292,22 +281,14 @@ BlendGradients blend_backward(std::span<const Splat> splats, const splat::TileLi
                       drawn.alpha.size() == pixels && by_picture.colour.size() == 3 * pixels &&
                       is_picture(by_picture.depth_sum) && is_picture(by_picture.alpha),
                   "pictures of the view's size");
-  scratch.by_slot.resize(tiles.splats.size());
+  scratch.by_slot.resize(tiles.entries.size());
   scratch.by_row.resize(splats.size());
-  thread::parallel_for(0, tiles.columns * tiles.rows, [&](int t) {
-    const int column = t % tiles.columns;
-    const int row = t / tiles.columns;
+  thread::parallel_for(0, tiles.tiles(), [&](int t) {
+    const splat::TilePixels place = splat::tile_pixels(tiles, t, view);
     ReverseTile tile;
-    const int x0 = column * kTilePx, y0 = row * kTilePx;
-    HWY_DYNAMIC_DISPATCH(load_tile)
-    ({x0, y0, std::min(kTilePx, view.width_px - x0), std::min(kTilePx, view.height_px - y0), view.width_px,
-      drawn, by_picture},
-     tile);
+    HWY_DYNAMIC_DISPATCH(load_tile)({place, drawn, by_picture}, tile);
     HWY_DYNAMIC_DISPATCH(reverse_tile)
-    ({splats, tiles.tile(column, row), tiles.tile_reached(column, row), tiles.tile_slots(column, row),
-      scratch.by_slot, static_cast<float>(column * kTilePx) + splat::kTileHalfPx,
-      static_cast<float>(row * kTilePx) + splat::kTileHalfPx},
-     tile);
+    ({splats, tiles.tile(t), scratch.by_slot, place.centre_x_px(), place.centre_y_px()}, tile);
   });
   constexpr std::size_t kBlock = 1024;
   std::vector<std::size_t> seen((splats.size() + kBlock - 1) / kBlock, 0);

@@ -51,8 +51,9 @@ void BenchScene::measure() {
   const auto projected = *splat::project(core::Backend::kCpu, splat::spans_of(cloud), view, options);
   const auto tiles = splat::make_tile_lists(projected.splats, view.width_px, view.height_px);
   visible = projected.splats.size();
-  tile_pairs = tiles.splats.size();
-  for (const std::uint16_t blocks : tiles.reached) evaluations += splat::kBlockPixels * std::popcount(blocks);
+  tile_pairs = tiles.entries.size();
+  for (const splat::TileEntry& entry : tiles.entries)
+    evaluations += splat::kBlockPixels * std::popcount(entry.reached);
   median_sigma_px = median_sigma(projected.splats, options.low_pass_px2);
   (void)splat::render(core::Backend::kCpu, splat::spans_of(cloud), view, {}, {colour, depth_sum_m, alpha});
 }
