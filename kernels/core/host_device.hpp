@@ -16,3 +16,7 @@
 #else
 #define EDGESPLAT_UNROLL _Pragma("GCC unroll 16")
 #endif
+
+/// For everything that a loop over many calls: only what is inlined to the last call becomes vector
+/// operations.
+#define EDGESPLAT_INLINE [[gnu::always_inline]] inline

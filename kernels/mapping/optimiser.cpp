@@ -209,18 +209,15 @@ Result<StepReport> Optimiser::step(const TrainingView& view) {
   StepReport report;
   Stopwatch watch(*clock_);
   size_pictures(view);
-  const splat::GaussianSpans gaussians = splat::spans_of(cloud_);
   Pictures& p = pictures_;
-  EDGESPLAT_TRY_STATUS(splat::project(core::Backend::kCpu, gaussians, view.view, options_.render,
-                                      project_scratch_, projected_));
-  splat::make_tile_lists(projected_.splats, view.view.width_px, view.view.height_px, tiles_scratch_, tiles_);
-  splat::blend(projected_.splats, tiles_, view.view, options_.render, {p.colour, p.depth_sum_m, p.alpha});
+  EDGESPLAT_TRY_STATUS(splat::render(core::Backend::kCpu, splat::spans_of(cloud_), view.view, options_.render,
+                                     {p.colour, p.depth_sum_m, p.alpha}, drawn_));
   report.times.forward = watch.lap();
   compare(view, report);
   report.times.loss = watch.lap();
-  const auto gradients =
-      train::blend_backward(projected_.splats, tiles_, view.view, {p.colour, p.depth_sum_m, p.alpha},
-                            {p.by_colour, p.by_depth_sum, p.by_alpha}, scratch_);
+  const auto gradients = train::blend_backward(drawn_.projected.splats, drawn_.tiles, view.view,
+                                               {p.colour, p.depth_sum_m, p.alpha},
+                                               {p.by_colour, p.by_depth_sum, p.by_alpha}, scratch_);
   report.times.backward = watch.lap();
   move_rows(view.view, gradients, report);
   report.times.update = watch.lap();

@@ -8,8 +8,7 @@
 #include "kernels/mapping/row_changes.hpp"
 #include "kernels/mapping/row_statistics.hpp"
 #include "kernels/mapping/training_view.hpp"
-#include "kernels/splat/project.hpp"
-#include "kernels/splat/tile_lists.hpp"
+#include "kernels/splat/render.hpp"
 
 #include <array>
 #include <chrono>
@@ -106,10 +105,7 @@ class Optimiser {
   std::vector<RowStatistics> statistics_;
   // Kept from step to step for their memory only.
   Pictures pictures_;
-  splat::ProjectScratch project_scratch_;
-  splat::Projected projected_;
-  splat::TileListsScratch tiles_scratch_;
-  splat::TileLists tiles_;
+  splat::RenderScratch drawn_;
   train::BlendBackwardScratch scratch_;
   std::uint64_t rows_refused_ = 0;
 };

@@ -60,9 +60,9 @@ struct BlendTask {
 HWY_BEFORE_NAMESPACE();
 namespace edgesplat::splat::HWY_NAMESPACE {
 
-/// Adds the scratch's splats to a block: its pixels stay in registers while the splats go by. True while some
-/// pixel still takes splats.
-bool add_to_block(const BlendScratch& scratch, int block, BlendTile& tile) {
+/// Adds the scratch's splats to a block: its pixels stay in registers while the splats go by. `begin`:
+/// nothing is there yet. True while some pixel still takes splats.
+bool add_to_block(const BlendScratch& scratch, int block, bool begin, BlendTile& tile) {
   const D d;
   const V zero = hn::Zero(d), most = hn::Set(d, kMaxAlpha), least = hn::Set(d, kMinAlpha);
   const V least_left = hn::Set(d, kMinTransmittance);
@@ -70,10 +70,15 @@ bool add_to_block(const BlendScratch& scratch, int block, BlendTile& tile) {
   for (int part = 0; part < kParts; ++part) {
     const PixelPlaces at = places_of(d, block, part);
     const std::size_t first = static_cast<std::size_t>(part * kLanes);
-    V left = hn::Load(d, tile.transmittance.at[block] + first);
-    V red = hn::Load(d, tile.red.at[block] + first), green = hn::Load(d, tile.green.at[block] + first);
-    V blue = hn::Load(d, tile.blue.at[block] + first), depth = hn::Load(d, tile.depth.at[block] + first);
-    V sum = hn::Load(d, tile.weight.at[block] + first);
+    V left = hn::Set(d, 1.0F), red = zero, green = zero, blue = zero, depth = zero, sum = zero;
+    if (!begin) {
+      left = hn::Load(d, tile.transmittance.at[block] + first);
+      red = hn::Load(d, tile.red.at[block] + first);
+      green = hn::Load(d, tile.green.at[block] + first);
+      blue = hn::Load(d, tile.blue.at[block] + first);
+      depth = hn::Load(d, tile.depth.at[block] + first);
+      sum = hn::Load(d, tile.weight.at[block] + first);
+    }
     for (std::uint32_t i = 0; i < scratch.count[block]; ++i) {
       const TileSplat& s = scratch.splats[scratch.list[block][i]];
       const V raw = raw_alpha_lanes(d, s, at);
@@ -102,7 +107,8 @@ bool add_to_block(const BlendScratch& scratch, int block, BlendTile& tile) {
 void blend_tile(const BlendTask& task, BlendScratch& scratch, BlendTile& tile) {
   constexpr std::size_t kAhead = 16;  // a tile's splats lie all over memory
   std::uint32_t open = ~0U >> (32U - kBlocks);
-  for (std::size_t first = 0; first < task.list.size() && open != 0; first += kChunk) {
+  std::size_t first = 0;
+  do {  // once at least: every block is written
     const std::size_t count = std::min(kChunk, task.list.size() - first);
     std::memset(scratch.count, 0, sizeof(scratch.count));
     for (std::size_t i = 0; i < count; ++i) {
@@ -117,37 +123,42 @@ void blend_tile(const BlendTask& task, BlendScratch& scratch, BlendTile& tile) {
     }
     for (std::uint32_t todo = open; todo != 0; todo &= todo - 1) {
       const int block = std::countr_zero(todo);
-      if (!add_to_block(scratch, block, tile)) open &= ~(1U << static_cast<unsigned>(block));
+      if (!add_to_block(scratch, block, first == 0, tile)) open &= ~(1U << static_cast<unsigned>(block));
     }
-  }
+    first += kChunk;
+  } while (first < task.list.size() && open != 0);
 }
 
-/// A run of pixels in one row of a block, from the tile to the pictures.
-template <typename Run>
-HWY_INLINE void write_run(Run run, const BlendTile& tile, int block, int pixel, const TileTarget& to,
-                          std::size_t at) {
-  const auto i = static_cast<std::size_t>(pixel);
-  const auto alpha = hn::LoadU(run, tile.weight.at[block] + i);
+/// A run of pixels of one row: (x, y) is the first one's place in the tile, of which `load` gets what a plane
+/// has there.
+template <typename Run, typename Load>
+HWY_INLINE void write_run(Run run, const BlendTile& tile, int x, int y, const TileTarget& to,
+                          const Load& load) {
+  const std::size_t at = to.place.at(x, y);
+  const auto alpha = load(tile.weight);
   const auto left = hn::Sub(hn::Set(run, 1.0F), alpha);
-  const auto colour = [&](const TilePlane& plane, float background) HWY_ATTR {
-    return hn::MulAdd(left, hn::Set(run, background), hn::LoadU(run, plane.at[block] + i));
-  };
+  const auto colour = [&](const TilePlane& plane, float background)
+                          HWY_ATTR { return hn::MulAdd(left, hn::Set(run, background), load(plane)); };
   hn::StoreInterleaved3(colour(tile.red, to.background[0]), colour(tile.green, to.background[1]),
                         colour(tile.blue, to.background[2]), run, &to.out.colour[3 * at]);
-  hn::StoreU(hn::LoadU(run, tile.depth.at[block] + i), run, &to.out.depth_sum_m[at]);
+  hn::StoreU(load(tile.depth), run, &to.out.depth_sum_m[at]);
   hn::StoreU(alpha, run, &to.out.alpha[at]);
 }
 
 void write_tile(const BlendTile& tile, const TileTarget& to) {
-  const hn::CappedTag<float, kBlockPx> run;
   const hn::CappedTag<float, 1> single;
-  const int step = static_cast<int>(hn::Lanes(run));
   for (int y = 0; y < to.place.height_px; ++y) {
     int x = 0;
-    for (; x + step <= to.place.width_px; x += step)
-      write_run(run, tile, block_of(x, y), pixel_of(x, y), to, to.place.at(x, y));
-    for (; x < to.place.width_px; ++x)
-      write_run(single, tile, block_of(x, y), pixel_of(x, y), to, to.place.at(x, y));
+    for (; x + kLanes <= to.place.width_px; x += kLanes) {
+      write_run(D(), tile, x, y, to, [&](const TilePlane& plane) HWY_ATTR {
+        return load_row(plane, block_of(x, y), pixel_of(x, y));
+      });
+    }
+    for (; x < to.place.width_px; ++x) {
+      write_run(single, tile, x, y, to, [&](const TilePlane& plane) HWY_ATTR {
+        return hn::Set(single, plane.at[block_of(x, y)][pixel_of(x, y)]);
+      });
+    }
   }
 }
 
@@ -161,11 +172,6 @@ namespace {
 HWY_EXPORT(blend_tile);
 HWY_EXPORT(write_tile);
 
-void clear(BlendTile& tile) {
-  tile = {};
-  std::fill_n(&tile.transmittance.at[0][0], kBlocks * kBlockPixels, 1.0F);
-}
-
 }  // namespace
 
 void blend(std::span<const Splat> splats, const TileLists& tiles, const View& view,
@@ -174,7 +180,6 @@ void blend(std::span<const Splat> splats, const TileLists& tiles, const View& vi
     const TilePixels place = tile_pixels(tiles, t, view);
     BlendTile tile;
     BlendScratch scratch;
-    clear(tile);
     HWY_DYNAMIC_DISPATCH(blend_tile)
     ({splats, tiles.tile(t), place.centre_x_px(), place.centre_y_px()}, scratch, tile);
     HWY_DYNAMIC_DISPATCH(write_tile)(tile, {place, options.background, out});

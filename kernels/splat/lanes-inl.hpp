@@ -74,6 +74,51 @@ HWY_INLINE V raw_alpha_lanes(D d, const TileSplat& s, const PixelPlaces& at) {
   return exp2_lanes(d, power);
 }
 
+/// Pixels of one row of a tile that lie in neighbouring blocks, in a register: kLanes of them from block
+/// `block` on, `at` being the first one's place in its block.
+HWY_INLINE V load_row(const TilePlane& plane, int block, int at) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Load(D(), plane.at[block] + at);
+#else
+  const hn::CappedTag<float, kBlockPx> quarter;
+  const float* from = plane.at[block] + at;
+#if HWY_TARGET <= HWY_AVX3
+  const hn::Half<D> half;
+  return hn::Combine(D(),
+                     hn::Combine(half, hn::Load(quarter, from + 3 * kBlockPixels),
+                                 hn::Load(quarter, from + 2 * kBlockPixels)),
+                     hn::Combine(half, hn::Load(quarter, from + kBlockPixels), hn::Load(quarter, from)));
+#elif HWY_TARGET <= HWY_AVX2
+  return hn::Combine(D(), hn::Load(quarter, from + kBlockPixels), hn::Load(quarter, from));
+#else
+  return hn::Load(quarter, from);
+#endif
+#endif
+}
+
+/// The reverse.
+HWY_INLINE void store_row(V values, TilePlane& plane, int block, int at) {
+#if HWY_TARGET == HWY_SCALAR
+  hn::Store(values, D(), plane.at[block] + at);
+#else
+  const hn::CappedTag<float, kBlockPx> quarter;
+  float* to = plane.at[block] + at;
+#if HWY_TARGET <= HWY_AVX3
+  const hn::Half<D> half;
+  const auto low = hn::LowerHalf(half, values), high = hn::UpperHalf(half, values);
+  hn::Store(hn::LowerHalf(quarter, low), quarter, to);
+  hn::Store(hn::UpperHalf(quarter, low), quarter, to + kBlockPixels);
+  hn::Store(hn::LowerHalf(quarter, high), quarter, to + 2 * kBlockPixels);
+  hn::Store(hn::UpperHalf(quarter, high), quarter, to + 3 * kBlockPixels);
+#elif HWY_TARGET <= HWY_AVX2
+  hn::Store(hn::LowerHalf(quarter, values), quarter, to);
+  hn::Store(hn::UpperHalf(quarter, values), quarter, to + kBlockPixels);
+#else
+  hn::Store(values, quarter, to);
+#endif
+#endif
+}
+
 }  // namespace edgesplat::splat::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -14,7 +14,7 @@
 #define HWY_TARGET_INCLUDE "kernels/train/blend_backward.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 
-#include "kernels/core/reciprocal-inl.hpp"
+#include "kernels/core/vectors-inl.hpp"
 #include "kernels/splat/lanes-inl.hpp"
 #include "kernels/splat/splat_one.hpp"
 
@@ -155,12 +155,13 @@ HWY_INLINE void recentre(float u, float v, TileSums& out) {
   m[kGy] -= v * m[kG];
 }
 
-/// A run of pixels in one row of a block before the first splat.
-template <typename Run>
-HWY_INLINE void load_run(Run run, const TileSource& from, std::size_t at, int block, int pixel,
-                         ReverseTile& tile) {
+/// A run of pixels of one row before the first splat: (x, y) is the first one's place in the tile, where
+/// `store` puts what a plane has there.
+template <typename Run, typename Store>
+HWY_INLINE void load_run(Run run, const TileSource& from, int x, int y, ReverseTile& tile,
+                         const Store& store) {
   using R = hn::Vec<Run>;
-  const auto i = static_cast<std::size_t>(pixel);
+  const std::size_t at = from.place.at(x, y);
   const auto value_of = [&](std::span<const float> picture) HWY_ATTR {
     return picture.empty() ? hn::Zero(run) : hn::LoadU(run, &picture[at]);
   };
@@ -175,27 +176,31 @@ HWY_INLINE void load_run(Run run, const TileSource& from, std::size_t at, int bl
   rest = hn::MulAdd(by_blue, blue, rest);
   rest = hn::MulAdd(by_depth, hn::LoadU(run, &from.drawn.depth_sum_m[at]), rest);
   rest = hn::NegMulAdd(value_of(from.by_picture.alpha), seen_through, rest);
-  hn::StoreU(by_red, run, tile.by_red.at[block] + i);
-  hn::StoreU(by_green, run, tile.by_green.at[block] + i);
-  hn::StoreU(by_blue, run, tile.by_blue.at[block] + i);
-  hn::StoreU(by_depth, run, tile.by_depth.at[block] + i);
-  hn::StoreU(rest, run, tile.rest.at[block] + i);
-  hn::StoreU(hn::Set(run, 1.0F), run, tile.transmittance.at[block] + i);
+  store(by_red, tile.by_red);
+  store(by_green, tile.by_green);
+  store(by_blue, tile.by_blue);
+  store(by_depth, tile.by_depth);
+  store(rest, tile.rest);
+  store(hn::Set(run, 1.0F), tile.transmittance);
 }
 
 /// Pixels beyond the picture's edge are full from the start.
 void load_tile(const TileSource& from, ReverseTile& tile) {
-  const hn::CappedTag<float, splat::kBlockPx> run;
   const hn::CappedTag<float, 1> single;
   const splat::TilePixels& place = from.place;
-  const int step = static_cast<int>(hn::Lanes(run));
   if (place.width_px < splat::kTileWidthPx || place.height_px < splat::kTileHeightPx) tile = {};
   for (int y = 0; y < place.height_px; ++y) {
     int x = 0;
-    for (; x + step <= place.width_px; x += step)
-      load_run(run, from, place.at(x, y), splat::block_of(x, y), splat::pixel_of(x, y), tile);
-    for (; x < place.width_px; ++x)
-      load_run(single, from, place.at(x, y), splat::block_of(x, y), splat::pixel_of(x, y), tile);
+    for (; x + kLanes <= place.width_px; x += kLanes) {
+      load_run(D(), from, x, y, tile, [&](V values, splat::TilePlane& plane) HWY_ATTR {
+        splat::HWY_NAMESPACE::store_row(values, plane, splat::block_of(x, y), splat::pixel_of(x, y));
+      });
+    }
+    for (; x < place.width_px; ++x) {
+      load_run(single, from, x, y, tile,
+               [&](hn::Vec<decltype(single)> value, splat::TilePlane& plane)
+                   HWY_ATTR { plane.at[splat::block_of(x, y)][splat::pixel_of(x, y)] = hn::GetLane(value); });
+    }
   }
 }
 
@@ -237,6 +242,44 @@ void reverse_tile(const ReverseTask& task, ReverseTile& tile) {
   for (; i < task.list.size(); ++i) task.by_slot[task.list[i].slot] = {};
 }
 
+HWY_INLINE void finish(const splat::Splat& s, std::span<const TileSums> parts, SplatBackward& out) {
+  const D d;
+  alignas(64) float m[kSums];
+  for (int k = 0; k < kSums; k += kLanes) {
+    V sum = hn::Zero(d);
+    for (const TileSums& part : parts) sum = hn::Add(sum, hn::Load(d, part.sums + k));
+    hn::Store(sum, d, m + k);
+  }
+  // alpha = opacity exp(-(xx dx^2 / 2 + xy dx dy + yy dy^2 / 2)) with dx = x - u.
+  out.by_u = s.conic[0] * m[kGx] + s.conic[1] * m[kGy];
+  out.by_v = s.conic[1] * m[kGx] + s.conic[2] * m[kGy];
+  out.by_conic[0] = -0.5F * m[kGxx];
+  out.by_conic[1] = -m[kGxy];
+  out.by_conic[2] = -0.5F * m[kGyy];
+  out.by_opacity_logit = m[kG] * (1.0F - s.opacity);
+  for (int c = 0; c < 3; ++c) {
+    out.by_rgb[c] = s.rgb[c] > 0.0F ? m[kRed + c] : 0.0F;
+    out.conic[c] = s.conic[c];
+  }
+  out.by_depth = m[kDepth];
+  out.radius_px = std::max(s.half_width_px, s.half_height_px);
+  out.weight = m[kWeight];
+  out.gaussian = s.gaussian;
+}
+
+/// Adds up what the tiles left of splats [first, last); returns how many of them have a weight.
+std::size_t finish_splats(std::span<const splat::Splat> splats, const splat::TileLists& tiles,
+                          std::size_t first, std::size_t last, BlendBackwardScratch& scratch) {
+  std::size_t seen = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    const std::size_t slot = tiles.splat_starts[i];
+    SplatBackward& out = scratch.by_row[splats[i].order];
+    finish(splats[i], std::span(scratch.by_slot).subspan(slot, tiles.splat_starts[i + 1] - slot), out);
+    seen += out.weight > 0.0F ? 1 : 0;
+  }
+  return seen;
+}
+
 }  // namespace edgesplat::train::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -246,27 +289,9 @@ namespace {
 
 HWY_EXPORT(load_tile);
 HWY_EXPORT(reverse_tile);
+HWY_EXPORT(finish_splats);
 
 using splat::Splat;
-
-SplatBackward finish(const Splat& s, std::span<const TileSums> parts) {
-  float m[kSums] = {};
-  for (const TileSums& part : parts) {
-    for (int k = 0; k < kSums; ++k) m[k] += part.sums[k];
-  }
-  const auto by_channel = [&](int c) { return s.rgb[c] > 0.0F ? m[kRed + c] : 0.0F; };
-  // alpha = opacity exp(-(xx dx^2 / 2 + xy dx dy + yy dy^2 / 2)) with dx = x - u.
-  return {s.conic[0] * m[kGx] + s.conic[1] * m[kGy],
-          s.conic[1] * m[kGx] + s.conic[2] * m[kGy],
-          {-0.5F * m[kGxx], -m[kGxy], -0.5F * m[kGyy]},
-          m[kG] * (1.0F - s.opacity),
-          {by_channel(0), by_channel(1), by_channel(2)},
-          m[kDepth],
-          {s.conic[0], s.conic[1], s.conic[2]},
-          std::max(s.half_width_px, s.half_height_px),
-          m[kWeight],
-          s.gaussian};
-}
 
 }  // namespace
 
@@ -293,12 +318,8 @@ BlendGradients blend_backward(std::span<const Splat> splats, const splat::TileLi
   constexpr std::size_t kBlock = 1024;
   std::vector<std::size_t> seen((splats.size() + kBlock - 1) / kBlock, 0);
   thread::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t b) {
-    for (std::size_t i = b * kBlock; i < std::min(splats.size(), (b + 1) * kBlock); ++i) {
-      const std::size_t first = tiles.splat_starts[i];
-      SplatBackward& out = scratch.by_row[splats[i].order];
-      out = finish(splats[i], std::span(scratch.by_slot).subspan(first, tiles.splat_starts[i + 1] - first));
-      seen[b] += out.weight > 0.0F ? 1 : 0;
-    }
+    seen[b] = HWY_DYNAMIC_DISPATCH(finish_splats)(splats, tiles, b * kBlock,
+                                                  std::min(splats.size(), (b + 1) * kBlock), scratch);
   });
   return {scratch.by_row, std::accumulate(seen.begin(), seen.end(), std::size_t{0})};
 }

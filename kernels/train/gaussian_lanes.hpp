@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "kernels/core/simd_variants.hpp"
+#include "kernels/core/host_device.hpp"
 #include "kernels/splat/exp_fast.hpp"
 #include "kernels/train/covariance_backward_math.hpp"
 #include "kernels/train/project_backward_math.hpp"

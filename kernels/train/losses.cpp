@@ -17,6 +17,8 @@
 #define HWY_TARGET_INCLUDE "kernels/train/losses.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 
+#include "kernels/core/vectors-inl.hpp"
+
 #include <hwy/highway.h>
 
 #ifndef EDGESPLAT_KERNELS_TRAIN_LOSSES_ONCE
@@ -62,16 +64,10 @@ HWY_INLINE void over_registers(std::size_t count, const Work& work) {
   if (i < count) work(i, count - i);
 }
 HWY_INLINE V load(const float* from, std::size_t some) {
-  const D d;
-  return some == hn::Lanes(d) ? hn::LoadU(d, from) : hn::MaskedLoad(hn::FirstN(d, some), d, from);
+  return core::HWY_NAMESPACE::load_some(D(), from, some);
 }
 HWY_INLINE void store(V values, float* to, std::size_t some) {
-  const D d;
-  if (some == hn::Lanes(d)) {
-    hn::StoreU(values, d, to);
-  } else {
-    hn::BlendedStore(values, hn::FirstN(d, some), d, to);
-  }
+  core::HWY_NAMESPACE::store_some(D(), values, to, some);
 }
 /// 1, 0 or -1 times `size`.
 HWY_INLINE V with_sign_of(V difference, V size) {

@@ -179,16 +179,14 @@ void gradient_rows(const SsimStrip& s, int window, int y, SsimBuffers& b) {
     V slopes[kSlopes][kSsimBatch];
     for (int q = 0; q < kSlopes; ++q) across_rows(rows[q], i, slopes[q]);
     const auto some = static_cast<std::size_t>(std::min(kStep, floats - i));
-    const auto mask = hn::FirstN(d, some);
     V l1_sum = hn::Load(d, b.l1_sum + i);
     for (int j = 0; j < count; ++j) {
       const std::size_t at = (static_cast<std::size_t>(y + j) * static_cast<std::size_t>(s.pair.width_px) +
                               static_cast<std::size_t>(s.x0_px)) *
                                  3 +
                              static_cast<std::size_t>(i);
-      const auto load = [&](const float* from) HWY_ATTR {
-        return some == static_cast<std::size_t>(kStep) ? hn::LoadU(d, from) : hn::MaskedLoad(mask, d, from);
-      };
+      const auto load = [&](const float* from)
+                            HWY_ATTR { return core::HWY_NAMESPACE::load_some(d, from, some); };
       V weight = hn::Set(d, 1.0F);
       if (!s.pair.weight.empty()) {
         alignas(64) float weights[kSsimLanes] = {};
@@ -203,12 +201,7 @@ void gradient_rows(const SsimStrip& s, int window, int y, SsimBuffers& b) {
       const V apart = hn::Mul(weight, hn::Sub(drawn, target));
       l1_sum = hn::Add(l1_sum, hn::Abs(apart));
       const V towards = hn::IfThenElseZero(hn::Ne(apart, hn::Zero(d)), hn::CopySign(l1_scale, apart));
-      const V sum = hn::MulAdd(towards, weight, by);
-      if (some == static_cast<std::size_t>(kStep)) {
-        hn::StoreU(sum, d, &s.by_drawn[at]);
-      } else {
-        hn::BlendedStore(sum, mask, d, &s.by_drawn[at]);
-      }
+      core::HWY_NAMESPACE::store_some(d, hn::MulAdd(towards, weight, by), &s.by_drawn[at], some);
     }
     hn::Store(l1_sum, d, b.l1_sum + i);
   }

@@ -10,7 +10,7 @@
 #define EDGESPLAT_KERNELS_TRAIN_SSIM_STRIP_INL_HPP
 #endif
 
-#include "kernels/core/reciprocal-inl.hpp"
+#include "kernels/core/vectors-inl.hpp"
 #include "kernels/train/ssim_strip.hpp"
 
 #include <hwy/highway.h>

@@ -22,9 +22,10 @@ test::SplatSceneShape shape_of(const benchmark::State& state) {
 }
 
 void draw(benchmark::State& state, BenchScene& scene) {
+  splat::RenderScratch scratch;
   for (auto _ : state) {
     benchmark::DoNotOptimize(splat::render(core::Backend::kCpu, splat::spans_of(scene.cloud), scene.view, {},
-                                           {scene.colour, scene.depth_sum_m, scene.alpha}));
+                                           {scene.colour, scene.depth_sum_m, scene.alpha}, scratch));
   }
   set_counters(state, scene);
 }
@@ -36,9 +37,10 @@ void forward_cpu(benchmark::State& state) {
 
 void project_cpu(benchmark::State& state) {
   const BenchScene scene(shape_of(state));
+  splat::RenderScratch scratch;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        splat::project(core::Backend::kCpu, splat::spans_of(scene.cloud), scene.view, {}));
+    benchmark::DoNotOptimize(splat::project(core::Backend::kCpu, splat::spans_of(scene.cloud), scene.view, {},
+                                            scratch.project, scratch.projected));
   }
   set_counters(state, scene);
 }
@@ -46,9 +48,10 @@ void project_cpu(benchmark::State& state) {
 void tiles_cpu(benchmark::State& state) {
   const BenchScene scene(shape_of(state));
   const auto projected = splat::project(core::Backend::kCpu, splat::spans_of(scene.cloud), scene.view, {});
+  splat::RenderScratch scratch;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        splat::make_tile_lists(projected->splats, scene.view.width_px, scene.view.height_px));
+    splat::make_tile_lists(projected->splats, scene.view.width_px, scene.view.height_px,
+                           scratch.tiles_scratch, scratch.tiles);
   }
   set_counters(state, scene);
 }

@@ -4,11 +4,14 @@
 #include "kernels/train/gaussian_backward.hpp"
 #include "test/support/random_cloud.hpp"
 #include "test/support/reference/splat_reference.hpp"
+#include "test/support/simd_limit.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <string>
+#include <tuple>
 
 namespace edgesplat::train {
 namespace {
@@ -67,18 +70,18 @@ struct ChainCase {
   double opaque;  ///< added to every logit: above 4.6 alpha is cut
 };
 
-class Chain : public testing::TestWithParam<ChainCase> {
+class Chain : public testing::TestWithParam<std::tuple<core::SimdLevel, ChainCase>> {
  protected:
-  Chain() : random_(GetParam().seed), loss_(random_, kPixels), camera_(camera(kWidth_px, kHeight_px)) {
+  Chain() : random_(shape_case().seed), loss_(random_, kPixels), camera_(camera(kWidth_px, kHeight_px)) {
     test::CloudShape shape;
-    shape.count = GetParam().count;
-    shape.sh_degree = GetParam().sh_degree;
+    shape.count = shape_case().count;
+    shape.sh_degree = shape_case().sh_degree;
     shape.scale_min_m = 0.05;
-    shape.scale_max_m = GetParam().scale_max_m;
+    shape.scale_max_m = shape_case().scale_max_m;
     shape.half_width_m = 2.0;
     shape.far_m = 6.0;
     cloud_ = test::random_cloud(random_, shape);
-    for (float& logit : cloud_.opacity_logits) logit += static_cast<float>(GetParam().opaque);
+    for (float& logit : cloud_.opacity_logits) logit += static_cast<float>(shape_case().opaque);
     for (float& q : cloud_.quats_xyzw) q *= 1.3F;  // gradients must not depend on unit length
     camera_from_map_ = {geometry::so3_exp(random_.vector(0.2)), random_.vector(0.3)};
     // What the kernel sees is rounded to single precision.
@@ -87,6 +90,7 @@ class Chain : public testing::TestWithParam<ChainCase> {
     reference_options_.background = {0.2F, 0.4F, 0.9F};
     gradients_ = gradients_of(cloud_, view_, options_, loss_);
   }
+  [[nodiscard]] static const ChainCase& shape_case() { return std::get<1>(GetParam()); }
   [[nodiscard]] double loss_of(const test::ReferenceCloud& cloud,
                                const geometry::RigidTransform& pose) const {
     return loss_(test::reference_render(cloud, camera_, pose, reference_options_));
@@ -122,6 +126,7 @@ class Chain : public testing::TestWithParam<ChainCase> {
 
   static constexpr int kWidth_px = 37, kHeight_px = 21;
   static constexpr std::size_t kPixels = 37 * 21;
+  test::SimdLimit limit_{std::get<0>(GetParam())};
   test::Random random_;
   Loss loss_;
   geometry::CameraModel camera_;
@@ -134,7 +139,7 @@ class Chain : public testing::TestWithParam<ChainCase> {
 };
 
 TEST_P(Chain, ShowsMostGaussians) {
-  EXPECT_GT(gradients_.rows.size(), GetParam().count / 2);
+  EXPECT_GT(gradients_.rows.size(), shape_case().count / 2);
 }
 TEST_P(Chain, MeansAgreeWithDifferences) {
   expect_group(&test::ReferenceCloud::means_m, ParameterRow::kMean);
@@ -172,10 +177,16 @@ TEST_P(Chain, PoseAgreesWithDifferences) {
         << "axis " << k;
 }
 
-INSTANTIATE_TEST_SUITE_P(Clouds, Chain,
-                         testing::Values(ChainCase{1, 1, 0, 0.6, 0.0}, ChainCase{2, 12, 0, 0.4, 0.0},
-                                         ChainCase{3, 12, 1, 1.0, 2.0}, ChainCase{4, 12, 2, 0.4, 0.0},
-                                         ChainCase{5, 20, 3, 0.8, 0.0}, ChainCase{6, 60, 0, 1.5, 5.0}));
+INSTANTIATE_TEST_SUITE_P(
+    Clouds, Chain,
+    testing::Combine(testing::ValuesIn(core::available_simd_levels()),
+                     testing::Values(ChainCase{1, 1, 0, 0.6, 0.0}, ChainCase{2, 12, 0, 0.4, 0.0},
+                                     ChainCase{3, 12, 1, 1.0, 2.0}, ChainCase{4, 12, 2, 0.4, 0.0},
+                                     ChainCase{5, 20, 3, 0.8, 0.0}, ChainCase{6, 60, 0, 1.5, 5.0})),
+    [](const auto& param) {
+      return std::string(core::to_string(std::get<0>(param.param))) + "_" +
+             std::to_string(std::get<1>(param.param).seed);
+    });
 
 TEST(Backward, IsTheSameForEveryNumberOfThreads) {
   test::Random random(7);

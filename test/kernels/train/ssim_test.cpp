@@ -4,12 +4,15 @@
 
 #include "test/support/random.hpp"
 #include "test/support/reference/ssim_reference.hpp"
+#include "test/support/simd_limit.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <tuple>
 #include <vector>
 
 namespace edgesplat::train {
@@ -43,10 +46,14 @@ struct SsimCase {
   int width_px, height_px;
   bool weighted;
 };
-class Ssim : public testing::TestWithParam<SsimCase> {};
+class Ssim : public testing::TestWithParam<std::tuple<core::SimdLevel, SsimCase>> {
+ protected:
+  [[nodiscard]] static const SsimCase& size_case() { return std::get<1>(GetParam()); }
+  test::SimdLimit limit_{std::get<0>(GetParam())};
+};
 
 TEST_P(Ssim, ValueAgreesWithTheReference) {
-  const auto& c = GetParam();
+  const SsimCase& c = size_case();
   const Pictures p(1, c.width_px, c.height_px, c.weighted);
   const double expected = p.reference({p.drawn.begin(), p.drawn.end()});
   EXPECT_NEAR(ssim(p.pair()), expected, 2e-5);
@@ -55,7 +62,7 @@ TEST_P(Ssim, ValueAgreesWithTheReference) {
 }
 
 TEST_P(Ssim, GradientAgreesWithDifferences) {
-  const auto& c = GetParam();
+  const SsimCase& c = size_case();
   const Pictures p(2, c.width_px, c.height_px, c.weighted);
   constexpr float kFactor = 3.0F, kStale = 7.0F;  // outputs must be written whole
   std::vector<float> by_drawn(p.drawn.size(), kStale);
@@ -79,7 +86,7 @@ TEST_P(Ssim, GradientAgreesWithDifferences) {
 }
 
 TEST_P(Ssim, L1BesideItAgreesWithTheFormula) {
-  const auto& c = GetParam();
+  const SsimCase& c = size_case();
   const Pictures p(4, c.width_px, c.height_px, c.weighted);
   std::vector<float> by_drawn(p.drawn.size());
   const double l1 = ssim_l1_backward(p.pair(), 0.0F, 2.0F, by_drawn).l1;
@@ -99,10 +106,17 @@ TEST_P(Ssim, L1BesideItAgreesWithTheFormula) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Ssim,
-                         testing::Values(SsimCase{1, 1, false}, SsimCase{7, 4, false},
-                                         SsimCase{40, 30, false}, SsimCase{40, 30, true},
-                                         SsimCase{137, 141, false}, SsimCase{131, 130, true},
-                                         SsimCase{128, 128, false}));
+                         testing::Combine(testing::ValuesIn(core::available_simd_levels()),
+                                          testing::Values(SsimCase{1, 1, false}, SsimCase{7, 4, false},
+                                                          SsimCase{40, 30, false}, SsimCase{40, 30, true},
+                                                          SsimCase{137, 141, false}, SsimCase{131, 130, true},
+                                                          SsimCase{128, 128, false})),
+                         [](const auto& param) {
+                           const SsimCase& c = std::get<1>(param.param);
+                           return std::string(core::to_string(std::get<0>(param.param))) + "_" +
+                                  std::to_string(c.width_px) + "x" + std::to_string(c.height_px) +
+                                  (c.weighted ? "_weighted" : "");
+                         });
 
 TEST(SsimValue, OfAPictureWithItselfIsOne) {
   Pictures p(4, 50, 40, false);
