@@ -3,84 +3,73 @@
 #pragma once
 
 #include "kernels/core/cuda_status.cuh"
+#include "kernels/core/stream.hpp"
+#include "kernels/core/vram_pool.hpp"
 
 #include <cstddef>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace edgesplat::core {
 
-/// A CUDA stream of its own. Single-owner.
-class Stream {
- public:
-  static Result<Stream> create() {
-    Stream stream;
-    EDGESPLAT_CUDA_TRY(cudaStreamCreateWithFlags(&stream.handle_, cudaStreamNonBlocking));
-    return stream;
-  }
-  Stream(Stream&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
-  Stream& operator=(Stream&& other) noexcept {
-    std::swap(handle_, other.handle_);
-    return *this;
-  }
-  ~Stream() {
-    if (handle_ != nullptr) cudaStreamDestroy(handle_);
-  }
-  [[nodiscard]] cudaStream_t get() const { return handle_; }
-  [[nodiscard]] Status synchronise() const {
-    return cuda_status(cudaStreamSynchronize(handle_), "synchronise");
-  }
-
- private:
-  Stream() = default;
-  cudaStream_t handle_ = nullptr;
-};
-
-/// An array on the device, allocated and freed in the order of a stream, which must outlive it. Single-owner.
+/// An array on the device that grows and never shrinks. Single-owner; the pool must outlive it.
 template <typename T>
 class DeviceBuffer {
  public:
-  /// Errors: kOutOfVram.
-  static Result<DeviceBuffer> create(const Stream& stream, std::size_t count) {
-    DeviceBuffer buffer(stream.get(), count);
-    if (count == 0) return buffer;
-    void* first = nullptr;
-    EDGESPLAT_CUDA_TRY(cudaMallocAsync(&first, count * sizeof(T), stream.get()));
-    buffer.first_ = static_cast<T*>(first);
-    return buffer;
-  }
-  static Result<DeviceBuffer> copy_of(const Stream& stream, std::span<const T> values) {
-    EDGESPLAT_TRY(DeviceBuffer buffer, create(stream, values.size()));
-    if (!values.empty()) {
-      EDGESPLAT_CUDA_TRY(cudaMemcpyAsync(buffer.first_, values.data(), values.size_bytes(),
-                                         cudaMemcpyHostToDevice, stream.get()));
-    }
-    return buffer;
-  }
-  DeviceBuffer(DeviceBuffer&& other) noexcept
-      : stream_(other.stream_), first_(std::exchange(other.first_, nullptr)), count_(other.count_) {}
-  DeviceBuffer& operator=(DeviceBuffer&&) = delete;
-  ~DeviceBuffer() {
-    if (first_ != nullptr) cudaFreeAsync(first_, stream_);
+  /// Empty. `purpose` is said where memory runs out.
+  DeviceBuffer(VramPool& pool, const char* purpose) : pool_(&pool), purpose_(purpose) {}
+  DeviceBuffer(const DeviceBuffer&) = delete;
+  DeviceBuffer& operator=(const DeviceBuffer&) = delete;
+  ~DeviceBuffer() { pool_->give_back(first_, capacity_ * sizeof(T)); }
+
+  /// Room for `count` values; growing loses what was there and takes a quarter more, so that a growing map
+  /// does not grow its buffers every time. kOutOfVram: then the buffer is empty.
+  [[nodiscard]] Status reserve(std::size_t count) {
+    if (count <= capacity_) return {};
+    const std::size_t grown = capacity_ == 0 ? count : count + count / 4;
+    pool_->give_back(std::exchange(first_, nullptr), std::exchange(capacity_, 0) * sizeof(T));
+    EDGESPLAT_TRY(void* const first, pool_->take(grown * sizeof(T), purpose_));
+    first_ = static_cast<T*>(first);
+    capacity_ = grown;
+    return {};
   }
   [[nodiscard]] T* data() { return first_; }
   [[nodiscard]] const T* data() const { return first_; }
-  /// Starts the copy back; the values are there after stream.synchronise().
-  [[nodiscard]] Result<std::vector<T>> start_download() const {
-    std::vector<T> values(count_);
-    if (count_ > 0) {
-      EDGESPLAT_CUDA_TRY(
-          cudaMemcpyAsync(values.data(), first_, count_ * sizeof(T), cudaMemcpyDeviceToHost, stream_));
-    }
-    return values;
-  }
+  [[nodiscard]] std::size_t capacity() const { return capacity_; }
 
  private:
-  DeviceBuffer(cudaStream_t stream, std::size_t count) : stream_(stream), count_(count) {}
-  cudaStream_t stream_ = nullptr;
+  VramPool* pool_;
+  const char* purpose_;
   T* first_ = nullptr;
-  std::size_t count_ = 0;
+  std::size_t capacity_ = 0;
 };
+
+/// Puts a copy to the device into the stream, growing `to` first.
+template <typename T>
+[[nodiscard]] Status upload(const Stream& stream, std::span<const T> from, DeviceBuffer<T>& to) {
+  EDGESPLAT_TRY_STATUS(to.reserve(from.size()));
+  if (from.empty()) return {};
+  EDGESPLAT_CUDA_TRY(
+      cudaMemcpyAsync(to.data(), from.data(), from.size_bytes(), cudaMemcpyHostToDevice, stream.get()));
+  return {};
+}
+
+/// Puts a copy of the first to.size() values to the host into the stream; they are there after
+/// stream.synchronise().
+template <typename T>
+[[nodiscard]] Status download(const Stream& stream, const DeviceBuffer<T>& from, std::span<T> to) {
+  if (to.empty()) return {};
+  EDGESPLAT_CUDA_TRY(
+      cudaMemcpyAsync(to.data(), from.data(), to.size_bytes(), cudaMemcpyDeviceToHost, stream.get()));
+  return {};
+}
+
+/// Sets every byte of the first `count` values.
+template <typename T>
+[[nodiscard]] Status fill_bytes(const Stream& stream, DeviceBuffer<T>& buffer, int byte, std::size_t count) {
+  if (count == 0) return {};
+  EDGESPLAT_CUDA_TRY(cudaMemsetAsync(buffer.data(), byte, count * sizeof(T), stream.get()));
+  return {};
+}
 
 }  // namespace edgesplat::core

@@ -210,8 +210,8 @@ Result<StepReport> Optimiser::step(const TrainingView& view) {
   Stopwatch watch(*clock_);
   size_pictures(view);
   Pictures& p = pictures_;
-  EDGESPLAT_TRY_STATUS(splat::render(core::Backend::kCpu, splat::spans_of(cloud_), view.view, options_.render,
-                                     {p.colour, p.depth_sum_m, p.alpha}, drawn_));
+  EDGESPLAT_TRY_STATUS(splat::render_cpu(splat::spans_of(cloud_), view.view, options_.render,
+                                         {p.colour, p.depth_sum_m, p.alpha}, drawn_));
   report.times.forward = watch.lap();
   compare(view, report);
   report.times.loss = watch.lap();

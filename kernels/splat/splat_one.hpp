@@ -59,6 +59,31 @@ EDGESPLAT_HOST_DEVICE inline void colour_towards(const SplatInput& in, const flo
   }
 }
 
+/// Where one Gaussian of finite parameters lies on the screen: all of `out` but its colour and row. False
+/// where the picture does not show it.
+EDGESPLAT_HOST_DEVICE inline bool shape_of(const SplatInput& in, const CameraT<float>& camera, float near_m,
+                                           float low_pass, float width_px, float height_px, Splat& out) {
+  out.opacity = 1.0F / (1.0F + std::exp(-in.opacity_logit));
+  if (out.opacity < kMinAlpha) return false;
+  float cov3d[6];
+  covariance3d(in.quat, in.log_scale, cov3d);
+  Projection<float> p;
+  if (!project(camera, in.mean, cov3d, near_m, low_pass, p)) return false;
+  // alpha >= 1/255 only where the Mahalanobis distance squared is under 2 ln(255 opacity): the box around
+  // that ellipse.
+  out.reach2 = 2.0F * std::log(out.opacity / kMinAlpha);
+  out.half_width_px = std::sqrt(out.reach2 * p.cov[0]);
+  out.half_height_px = std::sqrt(out.reach2 * p.cov[2]);
+  const bool outside = !(p.u + out.half_width_px > -0.5F) || !(p.u - out.half_width_px < width_px - 0.5F) ||
+                       !(p.v + out.half_height_px > -0.5F) || !(p.v - out.half_height_px < height_px - 0.5F);
+  if (outside || !all_finite(p.conic, 3)) return false;
+  out.u_px = p.u;
+  out.v_px = p.v;
+  for (int i = 0; i < 3; ++i) out.conic[i] = p.conic[i];
+  out.depth_m = p.p[2];
+  return true;
+}
+
 /// The whole way of one Gaussian to the screen; host and device.
 EDGESPLAT_HOST_DEVICE inline SplatOutcome splat_one(const SplatInput& in, const CameraT<float>& camera,
                                                     const float* camera_position, float near_m,
@@ -69,24 +94,7 @@ EDGESPLAT_HOST_DEVICE inline SplatOutcome splat_one(const SplatInput& in, const 
       !all_finite(&in.opacity_logit, 1) || !all_finite(in.sh, sh_floats)) {
     return SplatOutcome::kNotFinite;
   }
-  out.opacity = 1.0F / (1.0F + std::exp(-in.opacity_logit));
-  if (out.opacity < kMinAlpha) return SplatOutcome::kCulled;
-  float cov3d[6];
-  covariance3d(in.quat, in.log_scale, cov3d);
-  Projection<float> p;
-  if (!project(camera, in.mean, cov3d, near_m, low_pass, p)) return SplatOutcome::kCulled;
-  // alpha >= 1/255 only where the Mahalanobis distance squared is under 2 ln(255 opacity): the box around
-  // that ellipse.
-  out.reach2 = 2.0F * std::log(out.opacity / kMinAlpha);
-  out.half_width_px = std::sqrt(out.reach2 * p.cov[0]);
-  out.half_height_px = std::sqrt(out.reach2 * p.cov[2]);
-  const bool outside = !(p.u + out.half_width_px > -0.5F) || !(p.u - out.half_width_px < width_px - 0.5F) ||
-                       !(p.v + out.half_height_px > -0.5F) || !(p.v - out.half_height_px < height_px - 0.5F);
-  if (outside || !all_finite(p.conic, 3)) return SplatOutcome::kCulled;
-  out.u_px = p.u;
-  out.v_px = p.v;
-  for (int i = 0; i < 3; ++i) out.conic[i] = p.conic[i];
-  out.depth_m = p.p[2];
+  if (!shape_of(in, camera, near_m, low_pass, width_px, height_px, out)) return SplatOutcome::kCulled;
   colour_towards(in, camera_position, out.rgb);
   return SplatOutcome::kVisible;
 }

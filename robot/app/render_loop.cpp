@@ -4,7 +4,6 @@
 
 #include "common/log/log.hpp"
 #include "kernels/image/undistort.hpp"
-#include "robot/render/view.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -53,8 +52,9 @@ void RenderLoop::draw(const geometry::RigidTransform& map_from_body) {
   const HostTime began = clock_.now();
   const std::shared_ptr<const gaussian::GaussianCloud> cloud = map_view_();
   if (!cloud || cloud->size() == 0) return;
-  const auto view =
-      render::draw_view(*cloud, camera_.model, (map_from_body * camera_.body_from_camera).inverse());
+  const auto view = drawer_.draw(cloud, camera_.model, (map_from_body * camera_.body_from_camera).inverse());
+  if (!drawer_.gpu_failure().empty() && !std::exchange(told_of_gpu_, true))
+    EDGESPLAT_LOG_WARN("render", "drawing on the CPU", "why", drawer_.gpu_failure());
   if (!view) {
     failures_.add();
     EDGESPLAT_LOG_WARN("render", "picture failed", "why", view.error().context);

@@ -8,6 +8,7 @@
 #include "common/thread/bounded_queue.hpp"
 #include "common/thread/worker.hpp"
 #include "common/time/clock.hpp"
+#include "robot/render/view.hpp"
 
 #include <functional>
 #include <memory>
@@ -25,8 +26,8 @@ struct PictureTimes {
 };
 
 /// Draws the resident map from the newest pose at a fixed rate on its own thread, whether or not a new pose
-/// came; what takes longer than its turn is followed at once. Poses that come while it draws are skipped, so
-/// tracking never waits for it. Thread-safe.
+/// came, on the GPU where there is one; what takes longer than its turn is followed at once. Poses that come
+/// while it draws are skipped, so tracking never waits for it. Thread-safe.
 class RenderLoop {
  public:
   using MapView = std::function<std::shared_ptr<const gaussian::GaussianCloud>()>;
@@ -55,6 +56,8 @@ class RenderLoop {
   metrics::Histogram& interval_ms_;
   metrics::Counter& frames_;
   metrics::Counter& failures_;
+  render::ViewDrawer drawer_;
+  bool told_of_gpu_ = false;                      ///< that it was given up
   std::optional<geometry::RigidTransform> pose_;  ///< the newest that was taken
   HostTime next_{};                               ///< when the next picture is due
   std::optional<HostTime> last_began_;

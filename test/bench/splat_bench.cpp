@@ -24,8 +24,8 @@ test::SplatSceneShape shape_of(const benchmark::State& state) {
 void draw(benchmark::State& state, BenchScene& scene) {
   splat::RenderScratch scratch;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(splat::render(core::Backend::kCpu, splat::spans_of(scene.cloud), scene.view, {},
-                                           {scene.colour, scene.depth_sum_m, scene.alpha}, scratch));
+    benchmark::DoNotOptimize(splat::render_cpu(splat::spans_of(scene.cloud), scene.view, {},
+                                               {scene.colour, scene.depth_sum_m, scene.alpha}, scratch));
   }
   set_counters(state, scene);
 }

@@ -45,7 +45,12 @@ class FileRules(unittest.TestCase):
         self.assertEqual(len(self.violations("format", files)), 1)
 
     def test_headers(self):
-        files = {"common/a.hpp": SPDX + "#pragma once\n", "common/b.hpp": SPDX, "common/c.cpp": "int x;\n"}
+        files = {
+            "common/a.hpp": SPDX + "#pragma once\n",
+            "common/b.hpp": SPDX,
+            "common/c.cpp": "int x;\n",
+            "common/d-inl.hpp": SPDX + "#if defined(D) == defined(HWY_TARGET_TOGGLE)\n",
+        }
         self.assertEqual(len(self.violations("headers", files)), 2)
 
     def test_includes_are_read_from_files(self):
