@@ -23,6 +23,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(LZ4 REQUIRED IMPORTED_TARGET liblz4)
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
+pkg_check_modules(ARAVIS IMPORTED_TARGET aravis-0.8)  # without it a robot has no GigE Vision camera
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 # toml++: header-only is 7 s a file, Debian's shared library 1.3 s; only common/config includes it.
 edgesplat_require(tomlplusplus CONFIG)

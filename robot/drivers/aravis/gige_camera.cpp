@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/drivers/aravis/gige_camera.hpp"
+
+#include "common/log/log.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace edgesplat::aravis {
+namespace {
+
+constexpr auto kRetry = std::chrono::milliseconds(300);
+constexpr auto kProbeTimeout = std::chrono::milliseconds(100);
+constexpr auto kProbePeriod = std::chrono::milliseconds(200);
+constexpr auto kMostLatency = std::chrono::milliseconds(500);  // exposure, readout and transfer
+constexpr auto kFirstQuestion = std::chrono::milliseconds(500);
+constexpr auto kFirstFramePatience = std::chrono::seconds(2);  // the trigger may begin later than the camera
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string out;
+  for (const std::string& part : parts) out += (out.empty() ? "" : "; ") + part;
+  return out;
+}
+
+StreamStatistics sum(const StreamStatistics& a, const StreamStatistics& b) {
+  return {a.completed + b.completed, a.failed + b.failed, a.underruns + b.underruns,
+          a.packets_resent + b.packets_resent, a.packets_missing + b.packets_missing};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<GigeCamera>> GigeCamera::create(const GigeCameraConfig& config, PictureSize expected,
+                                                       const Clock& clock) {
+  if (!has_aravis())
+    return fail(
+        Errc::kUnavailable,
+        "camera.source = \"gige\" needs libaravis, which this program was built without; run tools/setup "
+        "and build again");
+  return std::unique_ptr<GigeCamera>(new GigeCamera(config, expected, clock));
+}
+
+GigeCamera::GigeCamera(const GigeCameraConfig& config, PictureSize expected, const Clock& clock)
+    : config_(config), clock_(clock), source_(config, expected) {}
+
+GigeCamera::~GigeCamera() {
+  if (!camera_) return;
+  if (!probe_->answers({}, kProbeTimeout)) {
+    // libaravis would wait for its answers for seconds, and the program's end must not. Its threads go with
+    // the process; nothing that they use is freed.
+    (void)watch_.release();
+    (void)camera_.release();
+    return;
+  }
+  close();
+}
+
+std::optional<sensor::Measurement> GigeCamera::receive(const std::stop_token& stop, nanoseconds timeout) {
+  const HostTime until = clock_.now() + timeout;
+  while (!stop.stop_requested()) {
+    const nanoseconds left = until - clock_.now();
+    if (left <= nanoseconds(0)) return std::nullopt;
+    switch (state_) {
+      case State::kClosed:
+        if (clock_.now() >= retry_at_) {
+          try_open();
+        } else {
+          pause(stop, std::min(left, retry_at_ - clock_.now()));
+        }
+        break;
+      case State::kSettling:
+        settle(stop, left);
+        break;
+      case State::kStreaming:
+        if (auto frame = stream(stop, left)) return frame;
+        break;
+      case State::kGone:
+        wait_for_return(stop, left);
+        break;
+    }
+  }
+  return std::nullopt;
+}
+
+void GigeCamera::try_open() {
+  auto opened = AravisCamera::open(config_, clock_);
+  if (!opened) {
+    ++session_.failed_opens;
+    if (!said_absent_ && !outage_since_)
+      EDGESPLAT_LOG_WARN("camera", "not there yet", "why", opened.error().context);
+    said_absent_ = true;
+    retry_at_ = clock_.now() + kRetry;
+    return;
+  }
+  ++session_.opens;
+  camera_ = *std::move(opened);
+  probe_ = std::make_unique<GvcpProbe>(camera_->address());
+  watch_ = std::make_unique<ClockWatch>(*camera_, config_, clock_);
+  source_.restart();
+  had_frame_ = false;
+  if (session_.opens == 1) {
+    EDGESPLAT_LOG_INFO("camera", "opened", "name", camera_->name(), "packet_bytes", camera_->packet_bytes(),
+                       "ptp", camera_->abilities().ptp_status, "exposure", camera_->abilities().exposure,
+                       "gain", camera_->abilities().gain, "chunks", camera_->abilities().chunks.size(),
+                       "without", joined(camera_->abilities().without));
+  }
+  // After an outage frames matter more than the last microseconds: they come at once, fitted to the host's
+  // clock.
+  if (!outage_since_ && session_.opens == 1 && camera_->abilities().has_ptp() && config_.ptp_wait_s > 0) {
+    settle_until_ = clock_.now() + from_seconds(config_.ptp_wait_s);
+    state_ = State::kSettling;
+    return;
+  }
+  start();
+}
+
+void GigeCamera::settle(const std::stop_token& stop, nanoseconds limit) {
+  const nanoseconds left = settle_until_ - clock_.now();
+  const bool disciplined = watch_->wait_until_disciplined(stop, std::min(left, limit));
+  if (stop.stop_requested()) return;
+  if (disciplined) {
+    EDGESPLAT_LOG_INFO("camera", "clock disciplined");
+  } else if (clock_.now() < settle_until_) {
+    return;
+  } else {
+    const auto ptp = watch_->ptp();
+    EDGESPLAT_LOG_WARN("camera", "clock not disciplined, its stamps are fitted to the host's clock", "status",
+                       ptp ? ptp->status : "no answer", "waited_s", config_.ptp_wait_s);
+  }
+  start();
+}
+
+void GigeCamera::start() {
+  watch_->wait_for_question(kFirstQuestion);
+  if (const Status started = camera_->start(); !started) {
+    ++session_.failed_opens;
+    close();
+    return;
+  }
+  last_frame_ = clock_.now();
+  state_ = State::kStreaming;
+}
+
+void GigeCamera::close() {
+  watch_.reset();
+  host_from_camera_.reset();
+  if (camera_) earlier_ = sum(earlier_, camera_->statistics());
+  camera_.reset();
+  probe_.reset();
+  state_ = State::kClosed;
+  retry_at_ = clock_.now();
+}
+
+/// How long no frame may come. Where none came of some openings it is left open for longer and longer: then
+/// nothing is wrong with the connection, but with the trigger.
+nanoseconds GigeCamera::patience() const {
+  const nanoseconds silence = from_seconds(config_.silence_s);
+  if (had_frame_) return silence;
+  if (!outage_since_) return std::max<nanoseconds>(kFirstFramePatience, silence);
+  return std::min<nanoseconds>(silence * (1 + idle_opens_),
+                               std::max<nanoseconds>(kFirstFramePatience, silence));
+}
+
+std::optional<sensor::Measurement> GigeCamera::stream(const std::stop_token& stop, nanoseconds limit) {
+  const nanoseconds left = patience() - (clock_.now() - last_frame_);
+  const auto raw = left > nanoseconds(0) ? camera_->receive(stop, std::min(left, limit)) : std::nullopt;
+  if (raw) {
+    auto frame = source_.on_frame(*raw, disciplined());
+    if (!raw->complete) return std::nullopt;
+    read_clock();
+    if (frame) place_arrival(std::get<sensor::CameraFrame>(*frame));
+    if (outage_since_) note_recovery();
+    last_frame_ = clock_.now();
+    had_frame_ = true;
+    idle_opens_ = 0;
+    return frame;
+  }
+  if (stop.stop_requested()) return std::nullopt;
+  if (camera_->control_lost()) {
+    note_outage(session_.control_losses, "it no longer obeys: restarted, or another program took it");
+    close();
+  } else if (clock_.now() - last_frame_ >= patience()) {
+    look_after(stop);
+  }
+  return std::nullopt;
+}
+
+void GigeCamera::read_clock() {
+  const auto reading = watch_->take_reading();
+  if (!reading) return;
+  if (!host_from_camera_) host_from_camera_.emplace();
+  host_from_camera_->observe(reading->device, reading->host);
+}
+
+/// The moment of the stamp, unless the camera's clock jumped since it was read.
+void GigeCamera::place_arrival(sensor::CameraFrame& frame) {
+  if (!host_from_camera_) return;
+  const HostTime moment = host_from_camera_->to_host(frame.stamp);
+  if (std::chrono::abs(frame.arrival - moment) < kMostLatency) {
+    frame.arrival = moment;
+  } else {
+    host_from_camera_.reset();
+  }
+}
+
+/// No frames come: is the camera there at all?
+void GigeCamera::look_after(const std::stop_token& stop) {
+  const bool there = probe_->answers(stop, kProbeTimeout);
+  note_outage(session_.silences, there ? "it answers, but no frames come: trigger or network"
+                                       : "it does not answer: power or cable");
+  if (!had_frame_) ++idle_opens_;
+  if (there) {
+    close();
+  } else {
+    state_ = State::kGone;
+  }
+}
+
+void GigeCamera::wait_for_return(const std::stop_token& stop, nanoseconds limit) {
+  if (probe_->answers(stop, std::min<nanoseconds>(kProbeTimeout, limit))) {
+    close();
+  } else {
+    pause(stop, std::min<nanoseconds>(kProbePeriod, limit));
+  }
+}
+
+void GigeCamera::note_outage(std::uint64_t& counter, const std::string& why) {
+  if (outage_since_) return;  // still the same one
+  ++counter;
+  outage_since_ = last_frame_;
+  EDGESPLAT_LOG_WARN("camera", "frames stopped", "why", why);
+}
+
+void GigeCamera::note_recovery() {
+  const nanoseconds outage = clock_.now() - *outage_since_;
+  session_.longest_outage = std::max(session_.longest_outage, outage);
+  ++session_.recoveries;
+  EDGESPLAT_LOG_INFO("camera", "frames come again", "after_s", to_seconds(outage));
+  outage_since_.reset();
+}
+
+void GigeCamera::pause(const std::stop_token& stop, nanoseconds how_long) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  std::unique_lock lock(mutex);
+  (void)never.wait_for(lock, stop, how_long, [] { return false; });
+}
+
+StreamStatistics GigeCamera::statistics() const {
+  return camera_ ? sum(earlier_, camera_->statistics()) : earlier_;
+}
+
+}  // namespace edgesplat::aravis
