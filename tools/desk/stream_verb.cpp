@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <string>
 
 namespace edgesplat::desk {
 namespace {
@@ -27,6 +29,9 @@ nlohmann::json to_json(const virtual_device::StreamReport& report) {
           {"dropped", report.dropped},
           {"frames_sent", report.frames_sent},
           {"frames_lost", report.frames_lost},
+          {"camera_packets", report.camera_packets},
+          {"camera_packets_lost", report.camera_packets_lost},
+          {"camera_packets_resent", report.camera_packets_resent},
           {"messages_skipped", report.messages_skipped},
           {"late", report.late},
           {"most_late_ms", 1e3 * to_seconds(report.most_late)},
@@ -52,7 +57,7 @@ Status run_stream(const StreamVerbOptions& options) {
 }  // namespace
 
 void add_stream_verb(CLI::App& app, VerbContext& context) {
-  auto* verb = app.add_subcommand("stream", "Play a recording as the devices: UDP datagrams and TCP frames");
+  auto* verb = app.add_subcommand("stream", "Play a recording as the devices: UDP datagrams and a camera");
   auto options = std::make_shared<StreamVerbOptions>();
   auto& stream = options->stream;
   verb->add_option("recording", stream.recording, "The .mcap to play")->required();
@@ -61,6 +66,16 @@ void add_stream_verb(CLI::App& app, VerbContext& context) {
   verb->add_option("--imu-port", stream.imu_port, "UDP port for the IMU")->capture_default_str();
   verb->add_option("--frame-port", stream.frame_port, "TCP port on which frames are served")
       ->capture_default_str();
+  verb->add_option("--camera", stream.camera, "socket = frames over TCP, gige = a GigE Vision camera")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, virtual_device::CameraKind>{
+          {"socket", virtual_device::CameraKind::kFrameSocket},
+          {"gige", virtual_device::CameraKind::kGige}}));
+  verb->add_option("--camera-address", stream.gige.address, "IPv4 address of this host for the GigE camera")
+      ->capture_default_str();
+  verb->add_option("--camera-path-bytes", stream.gige.path_bytes,
+                   "Largest packet that gets through, 256..9000")
+      ->capture_default_str();
+  verb->add_option("--camera-loss", stream.gige_loss, "Share of the GigE camera's packets lost, 0..1");
   verb->add_option("--speed", stream.speed, "2 = twice as fast")->capture_default_str();
   verb->add_option("--wait-for-camera", stream.wait_for_camera_s, "Seconds to wait for the robot to connect")
       ->capture_default_str();

@@ -6,8 +6,8 @@
 #include "common/io/mcap_reader.hpp"
 #include "common/io/recording_topics.hpp"
 #include "common/io/ros_messages.hpp"
+#include "tools/virtual_device/camera_end.hpp"
 #include "tools/virtual_device/datagram_sender.hpp"
-#include "tools/virtual_device/frame_server.hpp"
 #include "tools/virtual_device/pacer.hpp"
 
 #include <chrono>
@@ -26,8 +26,8 @@ Status check_options(const StreamOptions& options) {
     return fail(Errc::kInvalidConfig, "--wait-for-camera must be in [0, 3600] s");
   }
   const auto is_share = [](double rate) { return rate >= 0.0 && rate <= 1.0; };
-  if (!is_share(options.faults.flip) || !is_share(options.faults.drop)) {
-    return fail(Errc::kInvalidConfig, "--flip-bits and --drop are shares in [0, 1]");
+  if (!is_share(options.faults.flip) || !is_share(options.faults.drop) || !is_share(options.gige_loss)) {
+    return fail(Errc::kInvalidConfig, "--flip-bits, --drop and --camera-loss are shares in [0, 1]");
   }
   return {};
 }
@@ -36,14 +36,14 @@ Status check_options(const StreamOptions& options) {
 class Player {
  public:
   Player(const StreamOptions& options, DatagramSender points, DatagramSender imu,
-         std::unique_ptr<FrameServer> frames)
+         std::unique_ptr<CameraEnd> camera)
       : points_(std::move(points)),
         imu_(std::move(imu)),
-        frames_(std::move(frames)),
+        camera_(std::move(camera)),
         faults_(options.faults, options.seed) {}
 
   bool wait_for_camera(std::chrono::milliseconds timeout, const std::stop_token& stop) {
-    return frames_->wait_for_robot(timeout, stop);
+    return camera_->wait_for_robot(timeout, stop);
   }
   void play(const io::McapMessage& message) {
     const std::string_view topic = message.channel->topic;
@@ -62,14 +62,12 @@ class Player {
     if (!good) ++skipped_;
   }
   void finish(StreamReport& report) {
-    frames_->finish();
+    camera_->finish(report);
     report.points_sent = points_.sent();
     report.imu_sent = imu_.sent();
     report.refused = points_.refused() + imu_.refused();
     report.flipped = faults_.flipped();
     report.dropped = faults_.dropped();
-    report.frames_sent = frames_->sent();
-    report.frames_lost = frames_->lost();
     report.messages_skipped = skipped_;
   }
 
@@ -99,13 +97,13 @@ class Player {
       frame.stamp_source = meta_->stamp_source;
     }
     next_sequence_ = frame.sequence + 1;
-    frames_->push(frame, {image->encoded.begin(), image->encoded.end()});
+    camera_->push(frame, {image->encoded.begin(), image->encoded.end()});
     return true;
   }
 
   DatagramSender points_;
   DatagramSender imu_;
-  std::unique_ptr<FrameServer> frames_;
+  std::unique_ptr<CameraEnd> camera_;
   FaultInjector faults_;
   std::optional<io::FrameMeta> meta_;
   std::uint32_t next_sequence_ = 0;
@@ -120,8 +118,9 @@ Result<StreamReport> stream_recording(const StreamOptions& options, const std::s
   EDGESPLAT_TRY(io::McapReader reader, io::McapReader::open(options.recording));
   EDGESPLAT_TRY(DatagramSender points, DatagramSender::open(options.to, options.points_port));
   EDGESPLAT_TRY(DatagramSender imu, DatagramSender::open(options.to, options.imu_port));
-  EDGESPLAT_TRY(auto frames, FrameServer::listen(options.frame_port));
-  Player player(options, std::move(points), std::move(imu), std::move(frames));
+  const SteadyClock clock;
+  EDGESPLAT_TRY(auto camera, open_camera(options, clock));
+  Player player(options, std::move(points), std::move(imu), std::move(camera));
 
   StreamReport report;
   if (reader.find_channel(io::kCameraImageTopic) != nullptr) {

@@ -5,6 +5,7 @@
 #include "common/base/result.hpp"
 #include "common/time/time.hpp"
 #include "tools/virtual_device/fault_injector.hpp"
+#include "tools/virtual_device/gige_server.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -13,12 +14,18 @@
 
 namespace edgesplat::virtual_device {
 
+/// What the robot finds in the camera's place.
+enum class CameraKind : std::uint8_t { kFrameSocket, kGige };
+
 struct StreamOptions {
   std::filesystem::path recording;
   std::string to = "127.0.0.1";  ///< IPv4 address of the robot
   std::uint16_t points_port = 56301;
   std::uint16_t imu_port = 56401;
-  std::uint16_t frame_port = 57400;  ///< TCP, on this host; the robot connects
+  CameraKind camera = CameraKind::kFrameSocket;
+  std::uint16_t frame_port = 57400;  ///< kFrameSocket: TCP, on this host; the robot connects
+  GigeServerOptions gige;            ///< kGige; the model's size comes from the recording
+  double gige_loss = 0.0;            ///< share of the camera's packets lost, [0, 1]
   double speed = 1.0;                ///< (0, 100]
   double wait_for_camera_s = 10.0;   ///< for the robot to connect, [0, 3600]; then without
   FaultInjector::Rates faults;       ///< of the datagrams
@@ -34,16 +41,20 @@ struct StreamReport {
   std::uint64_t dropped = 0;  ///< on demand
   std::uint64_t frames_sent = 0;
   std::uint64_t frames_lost = 0;
-  std::uint64_t messages_skipped = 0;  ///< that could not be decoded
-  std::uint64_t late = 0;              ///< messages more than 5 ms behind their time
+  std::uint64_t camera_packets = 0;         ///< kGige: first sendings
+  std::uint64_t camera_packets_lost = 0;    ///< kGige: on demand
+  std::uint64_t camera_packets_resent = 0;  ///< kGige: on the robot's request
+  std::uint64_t messages_skipped = 0;       ///< that could not be decoded
+  std::uint64_t late = 0;                   ///< messages more than 5 ms behind their time
   nanoseconds most_late{};
   bool camera_connected = false;
   bool stopped = false;           ///< ended early by request
   std::string recording_problem;  ///< empty where the recording was whole
 };
 
-/// Plays a recording as the devices would have sent it: raw Livox datagrams over UDP, pictures over TCP, each
-/// at its recorded arrival time. Blocks until the end or a stop. kNotFound, kCorrupt, kIo, kInvalidConfig.
+/// Plays a recording as the devices would have sent it: raw Livox datagrams over UDP, pictures over TCP or as
+/// a GigE Vision camera, each at its recorded arrival time. Blocks until the end or a stop. kNotFound,
+/// kCorrupt, kIo, kInvalidConfig.
 [[nodiscard]] Result<StreamReport> stream_recording(const StreamOptions& options,
                                                     const std::stop_token& stop);
 
