@@ -4,8 +4,7 @@
 
 #include "common/log/log.hpp"
 #include "common/thread/worker.hpp"
-#include "robot/drivers/frame_socket/frame_client.hpp"
-#include "robot/drivers/frame_socket/frame_source.hpp"
+#include "robot/app/camera_input.hpp"
 #include "robot/drivers/livox/livox_source.hpp"
 #include "robot/drivers/livox/livox_transport.hpp"
 
@@ -32,14 +31,12 @@ void publish_stream(metrics::Registry& metrics, const std::string& name, const l
 
 struct LiveInput::Devices {
   livox::LivoxTransport lidar_transport;
-  std::optional<frame_socket::FrameClient> camera_client;
-  frame_socket::FrameSource camera_source;
+  std::unique_ptr<CameraInput> camera;  ///< null: the rig has none
   livox::LivoxSource lidar_source;
   Sink sink;
   replay::Recorder* recorder;
 
   void receive_lidar(const std::stop_token& stop);
-  void receive_camera(const std::stop_token& stop);
 };
 
 void LiveInput::Devices::receive_lidar(const std::stop_token& stop) {
@@ -59,25 +56,6 @@ void LiveInput::Devices::receive_lidar(const std::stop_token& stop) {
   }
 }
 
-void LiveInput::Devices::receive_camera(const std::stop_token& stop) {
-  bool was_connected = false;
-  while (!stop.stop_requested()) {
-    const auto received = camera_client->receive(stop, kReceiveTimeout);
-    if (camera_client->connected() != was_connected) {
-      was_connected = !was_connected;
-      if (was_connected) {
-        EDGESPLAT_LOG_INFO("camera", "connected");
-      } else {
-        EDGESPLAT_LOG_WARN("camera", "connection lost", "why", camera_client->why_not_connected());
-      }
-    }
-    if (!received) continue;
-    if (recorder != nullptr) recorder->on_frame(received->frame, received->arrival);
-    auto measurement = camera_source.on_frame(received->frame, received->arrival);
-    if (measurement) sink(std::move(*measurement));
-  }
-}
-
 LiveInput::LiveInput(std::unique_ptr<Devices> devices) : devices_(std::move(devices)) {}
 LiveInput::~LiveInput() = default;
 
@@ -89,29 +67,22 @@ Result<std::unique_ptr<LiveInput>> LiveInput::open(const robot_config::RobotConf
   lidar.points_port = config.livox.points_port;
   lidar.imu_port = config.livox.imu_port;
   EDGESPLAT_TRY(livox::LivoxTransport transport, livox::LivoxTransport::open(lidar, clock));
-  std::optional<frame_socket::FrameClient> client;
-  frame_socket::PictureSize size;
+  std::unique_ptr<CameraInput> camera;
   if (rig.camera) {
-    frame_socket::FrameClientConfig camera;
-    camera.host = config.camera.host;
-    camera.port = config.camera.port;
-    EDGESPLAT_TRY(frame_socket::FrameClient opened, frame_socket::FrameClient::create(camera, clock));
-    client.emplace(std::move(opened));
-    size = {rig.camera->model.width_px, rig.camera->model.height_px};
+    EDGESPLAT_TRY(camera, open_camera(config.camera, *rig.camera, clock));
   }
   EDGESPLAT_LOG_INFO("livox", "listening", "points_port", transport.points_port(), "imu_port",
                      transport.imu_port(), "receive_buffer_bytes", transport.receive_buffer_bytes());
-  auto devices = std::make_unique<Devices>(Devices{std::move(transport), std::move(client),
-                                                   frame_socket::FrameSource(size), livox::LivoxSource(),
-                                                   std::move(sink), recorder});
+  auto devices = std::make_unique<Devices>(
+      Devices{std::move(transport), std::move(camera), livox::LivoxSource(), std::move(sink), recorder});
   return std::unique_ptr<LiveInput>(new LiveInput(std::move(devices)));
 }
 
 void LiveInput::run(const std::stop_token& stop) {
   std::optional<thread::Worker> camera;
-  if (devices_->camera_client) {
+  if (devices_->camera) {
     camera.emplace(thread::Worker("camera", [this, &stop](const std::stop_token&) {
-      devices_->receive_camera(stop);
+      devices_->camera->receive(stop, devices_->sink, devices_->recorder);
       return false;
     }));
   }
@@ -139,14 +110,7 @@ void LiveInput::publish_counters(metrics::Registry& metrics) const {
   metrics.counter("livox.datagrams").add(transport.datagrams);
   metrics.counter("livox.foreign_datagrams").add(transport.foreign);
   metrics.counter("livox.kernel_dropped").add(transport.kernel_dropped);
-  if (!devices_->camera_client) return;
-  const frame_socket::FrameCounters& camera = devices_->camera_source.counters();
-  metrics.counter("camera.frames").add(camera.frames);
-  metrics.counter("camera.lost").add(camera.lost);
-  metrics.counter("camera.bad_pictures").add(camera.bad_pictures);
-  metrics.counter("camera.wrong_size").add(camera.wrong_size);
-  metrics.counter("camera.disconnects").add(devices_->camera_client->counters().disconnects);
-  metrics.counter("camera.bad_payloads").add(devices_->camera_client->assembler_counters().bad_payloads);
+  if (devices_->camera) devices_->camera->publish_counters(metrics);
 }
 
 }  // namespace edgesplat::app

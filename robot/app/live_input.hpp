@@ -15,8 +15,8 @@
 
 namespace edgesplat::app {
 
-/// The robot's sensors: the LiDAR with its IMU over UDP, the camera over TCP; a thread each. Owned by one
-/// thread.
+/// The robot's sensors: the LiDAR with its IMU over UDP, the camera (see CameraInput); a thread each. Owned
+/// by one thread.
 class LiveInput {
  public:
   using Sink = std::function<void(sensor::Measurement)>;

@@ -16,9 +16,13 @@ void describe_livox(ConfigReader& reader, LivoxPorts& c) {
   reader.field("imu_port", c.imu_port, {1, 65535}, "UDP port the IMU samples arrive at");
 }
 
-void describe_camera(ConfigReader& reader, CameraSocket& c) {
-  reader.field("host", c.host, "address of the camera");
-  reader.field("port", c.port, {1, 65535}, "TCP port of the camera");
+void describe_camera(ConfigReader& reader, CameraSettings& c) {
+  reader.choice("source", c.source,
+                {{"frame_socket", CameraSource::kFrameSocket}, {"gige", CameraSource::kGige}},
+                "frame_socket = pictures over TCP, gige = a GigE Vision camera");
+  reader.field("host", c.host, "address of the frame socket's camera");
+  reader.field("port", c.port, {1, 65535}, "and its TCP port");
+  reader.table("gige", "the GigE Vision camera", [&] { describe(reader, c.gige); });
 }
 
 void describe_sync(ConfigReader& reader, sync::GroupBuilderConfig& c) {

@@ -5,6 +5,7 @@
 #include "common/base/result.hpp"
 #include "common/link/link_config.hpp"
 #include "common/policy/offload_policy.hpp"
+#include "robot/drivers/aravis/camera_config.hpp"
 #include "robot/keyframe/keyframe_config.hpp"
 #include "robot/local_mapping/local_mapping_config.hpp"
 #include "robot/map/resident_map.hpp"
@@ -27,9 +28,13 @@ struct LivoxPorts {
   std::uint16_t imu_port = 56401;
 };
 
-struct CameraSocket {
+enum class CameraSource : std::uint8_t { kFrameSocket, kGige };
+
+struct CameraSettings {
+  CameraSource source = CameraSource::kFrameSocket;
   std::string host = "127.0.0.1";
   std::uint16_t port = 57400;
+  aravis::GigeCameraConfig gige;
 };
 
 struct RenderSettings {
@@ -69,7 +74,7 @@ struct ServerLink {
 /// Everything edgesplat-robot can be told, module by module.
 struct RobotConfig {
   LivoxPorts livox;
-  CameraSocket camera;
+  CameraSettings camera;
   sync::GroupBuilderConfig sync;
   tracking::TrackingConfig tracking;
   keyframe::KeyframeConfig keyframe;

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The robot program live: a recording is played as devices on loopback; damage on the way, taken ports, full
 // disks.
+#include "robot/drivers/aravis/aravis_camera.hpp"
 #include "test/integration/program.hpp"
+#include "test/support/own_loopback_address.hpp"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -100,6 +102,36 @@ TEST_F(LiveRun, TracksRecordsAndReplaysWhatItRecorded) {
   const std::string live = text_of(in_folder("run/robot/trajectory.tum"));
   const auto poses = std::count(live.begin(), live.end(), '\n');
   EXPECT_GT(poses, kMustKeepUp ? 50 : 5);
+
+  const auto replayed = run_program("edgesplat-robot", {"--replay", in_folder("live.mcap"), "--lockstep",
+                                                        "--server", "off", "--out", in_folder("again")});
+  ASSERT_EQ(replayed.exit_code, 0) << replayed.err;
+  if (kMustKeepUp || poses > 50) {
+    EXPECT_TRUE(text_of(in_folder("again/robot/trajectory.tum")) == live)
+        << "another trajectory from the recording";
+  }
+}
+
+TEST_F(LiveRun, AGigeCameraDoesTheSame) {
+  if (!aravis::has_aravis()) GTEST_SKIP() << "built without libaravis";
+  const std::string address = own_loopback_address();
+  const auto run = drive({"--out", in_folder("run"), "--record", in_folder("live.mcap"), "--set",
+                          "camera.source=gige", "--set", "camera.gige.address=" + address, "--set",
+                          "camera.gige.pixel_format=RGB8", "--set", "camera.gige.ptp_settle_s=0.5"},
+                         {"--camera", "gige", "--camera-address", address, "--camera-loss", "0.01"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto counters = nlohmann::json::parse(text_of(in_folder("run/robot/metrics.json")))["counters"];
+  EXPECT_EQ(counters["camera.frames"].get<int>(), 60);
+  EXPECT_EQ(counters["camera.lost"].get<int>(), 0);
+  EXPECT_EQ(counters["camera.missed_pulses"].get<int>(), 0);
+  EXPECT_EQ(counters["sync.clock_changes"].get<int>(), 0);
+  const std::string live = text_of(in_folder("run/robot/trajectory.tum"));
+  const auto poses = std::count(live.begin(), live.end(), '\n');
+  EXPECT_GT(poses, kMustKeepUp ? 50 : 5);
+  const auto accuracy =
+      run_program("edgesplat", {"report", "--run", in_folder("run"), "--input", recording_, "--json"});
+  ASSERT_EQ(accuracy.exit_code, 0) << accuracy.err;
+  EXPECT_LT(nlohmann::json::parse(accuracy.out)["ate_rmse_m"].get<double>(), 0.03);
 
   const auto replayed = run_program("edgesplat-robot", {"--replay", in_folder("live.mcap"), "--lockstep",
                                                         "--server", "off", "--out", in_folder("again")});
