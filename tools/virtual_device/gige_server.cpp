@@ -4,6 +4,7 @@
 
 #include "common/thread/stop_fd.hpp"
 #include "tools/simulate/noise.hpp"
+#include "tools/virtual_device/pacer.hpp"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -14,7 +15,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <thread>
 #include <utility>
 
 namespace edgesplat::virtual_device {
@@ -209,7 +209,8 @@ void GigeServer::send_frame(const GigeExposure& exposure) {
 void GigeServer::stream_frame(const GvspFrame& frame, GigePeer to, std::uint32_t packet_bytes) {
   const double loss = faults().loss;
   const std::uint32_t count = gvsp_packet_count(frame.payload.size(), packet_bytes);
-  const auto start = std::chrono::steady_clock::now();
+  Pacer wire(1.0);
+  (void)wire.wait_for(HostTime{}, {});  // begins now
   std::vector<std::byte> packet;
   std::size_t sent_bytes = 0, burst_bytes = 0;
   for (std::uint32_t index = 0; index < count; ++index) {
@@ -220,8 +221,8 @@ void GigeServer::stream_frame(const GvspFrame& frame, GigePeer to, std::uint32_t
     burst_bytes += packet.size();
     if (burst_bytes < kBurstBytes) continue;
     burst_bytes = 0;
-    const std::chrono::duration<double> due(static_cast<double>(sent_bytes) / options_.link_bytes_per_s);
-    std::this_thread::sleep_until(start + std::chrono::duration_cast<nanoseconds>(due));
+    const double due_s = static_cast<double>(sent_bytes) / options_.link_bytes_per_s;
+    (void)wire.wait_for(HostTime{} + from_seconds(due_s), {});
   }
 }
 
