@@ -18,7 +18,8 @@ constexpr int kDefaultPacketBytes = 1500;
 constexpr unsigned kPacketTimeout_us = 10'000;    // before a packet is asked for again
 constexpr unsigned kFrameRetention_us = 150'000;  // after its last packet an incomplete frame is given up
 constexpr double kResendRatio = 0.5;              // of a frame's packets at most are asked for again
-constexpr int kFramesInSocket = 4;
+constexpr guint kFramesInSocket = 4;
+constexpr guint kLeastSocketBytes = 4U << 20U;  // the kernel counts some KB a packet, however small it is
 constexpr int kStreamNiceness = -10;
 
 std::optional<double> chunk_number(ArvChunkParser* parser, ArvBuffer* buffer, const char* name) {
@@ -60,7 +61,7 @@ class AravisCamera::Device {
   [[nodiscard]] Result<ClockReading> read_clock();
   [[nodiscard]] StreamStatistics statistics() const;
 
-  [[nodiscard]] AravisFeatures& features() { return features_; }
+  [[nodiscard]] Result<PtpReading> read_ptp();
   [[nodiscard]] const CameraAbilities& abilities() const { return abilities_; }
   [[nodiscard]] bool control_lost() const { return control_lost_; }
   [[nodiscard]] int packet_bytes() const { return packet_bytes_; }
@@ -80,6 +81,7 @@ class AravisCamera::Device {
 
   GObjectPtr<ArvCamera> camera_;
   AravisFeatures features_;
+  std::mutex features_mutex_;  ///< Aravis' nodes are for one thread at a time
   const Clock& clock_;
   CameraAbilities abilities_;
   GObjectPtr<ArvChunkParser> chunk_parser_;
@@ -166,8 +168,9 @@ Status AravisCamera::Device::make_stream(const GigeCameraConfig& config) {
   const guint payload = arv_camera_get_payload(camera_.get(), error.out());
   EDGESPLAT_TRY_STATUS(error.status("cannot read the size of a frame"));
   g_object_set(stream_.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED, "socket-buffer-size",
-               static_cast<int>(payload) * kFramesInSocket, "packet-timeout", kPacketTimeout_us,
-               "frame-retention", kFrameRetention_us, "packet-request-ratio", kResendRatio, nullptr);
+               static_cast<int>(std::max(payload * kFramesInSocket, kLeastSocketBytes)), "packet-timeout",
+               kPacketTimeout_us, "frame-retention", kFrameRetention_us, "packet-request-ratio", kResendRatio,
+               nullptr);
   for (int i = 0; i < config.buffers; ++i)
     arv_stream_push_buffer(stream_.get(), arv_buffer_new_allocate(payload));
   control_lost_handler_ = g_signal_connect(arv_camera_get_device(camera_.get()), "control-lost",
@@ -176,6 +179,7 @@ Status AravisCamera::Device::make_stream(const GigeCameraConfig& config) {
 }
 
 Status AravisCamera::Device::start() {
+  const std::lock_guard lock(features_mutex_);
   ErrorSlot error;
   arv_camera_start_acquisition(camera_.get(), error.out());
   return error.status("cannot start the camera");
@@ -251,7 +255,13 @@ void AravisCamera::Device::read_chunks(ArvBuffer* buffer, RawFrame& frame) {
   if (abilities_.has(Chunk::kCounter)) frame.counter = chunk_integer(parser, buffer, "ChunkCounterValue");
 }
 
+Result<PtpReading> AravisCamera::Device::read_ptp() {
+  const std::lock_guard lock(features_mutex_);
+  return aravis::read_ptp(features_, abilities_);
+}
+
 Result<AravisCamera::ClockReading> AravisCamera::Device::read_clock() {
+  const std::lock_guard lock(features_mutex_);
   const HostTime before = clock_.now();
   EDGESPLAT_TRY_STATUS(features_.execute(abilities_.clock_latch));
   const HostTime after = clock_.now();
@@ -300,7 +310,7 @@ const CameraAbilities& AravisCamera::abilities() const {
   return device_->abilities();
 }
 Result<PtpReading> AravisCamera::read_ptp() {
-  return aravis::read_ptp(device_->features(), device_->abilities());
+  return device_->read_ptp();
 }
 Result<AravisCamera::ClockReading> AravisCamera::read_clock() {
   return device_->read_clock();

@@ -25,8 +25,8 @@ struct StreamStatistics {
 };
 
 /// A GigE Vision camera that is open and set up: the transport, on libaravis, whose headers nobody else sees.
-/// A thread of Aravis' own receives packets; frames wait in a fixed number of buffers. Thread-bound but for
-/// that.
+/// A thread of Aravis' own receives packets; frames wait in a fixed number of buffers. One thread calls
+/// receive(); read_ptp() and read_clock() may be called from another.
 class AravisCamera {
  public:
   /// Finds the camera, takes control of it, tests the packet size, sets it up and makes the buffers; does not

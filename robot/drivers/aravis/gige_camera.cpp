@@ -51,7 +51,7 @@ GigeCamera::~GigeCamera() {
   if (!probe_->answers({}, kProbeTimeout)) {
     // libaravis would wait for its answers for seconds, and the program's end must not. Its threads go with
     // the process; nothing that they use is freed.
-    (void)watch_.release();
+    watch_.reset();
     (void)camera_.release();
     return;
   }
@@ -169,7 +169,10 @@ std::optional<sensor::Measurement> GigeCamera::stream(const std::stop_token& sto
   const auto raw = left > nanoseconds(0) ? camera_->receive(stop, std::min(left, limit)) : std::nullopt;
   if (raw) {
     auto frame = source_.on_frame(*raw, disciplined());
-    if (!raw->complete) return std::nullopt;
+    if (!raw->complete) {
+      last_frame_ = clock_.now();  // the camera sends; packets get lost
+      return std::nullopt;
+    }
     read_clock();
     if (frame) place_arrival(std::get<sensor::CameraFrame>(*frame));
     if (outage_since_) note_recovery();

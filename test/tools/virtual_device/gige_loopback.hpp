@@ -86,6 +86,7 @@ inline aravis::GigeCameraConfig robot_config_for(const GigeServerOptions& option
   config.address = options.address;
   config.pixel_format = aravis::PixelFormat::kRgb8;
   config.ptp_settle_s = 0.2;
+  config.silence_s = 5.0;  // a busy machine is no fault
   config.ptp_wait_s = 5.0;
   return config;
 }
