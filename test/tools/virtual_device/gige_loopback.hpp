@@ -34,7 +34,7 @@ class PulsedCamera {
     EXPECT_TRUE(opened.has_value()) << (opened ? "" : opened.error().context);
     server_ = *std::move(opened);
     server_->set_ptp(true);
-    server_->set_clock([this](HostTime now) { return sensor_time_from_ns(kGigeEpoch_ns) + (now - begin_); });
+    server_->set_clock([this](HostTime now) { return sensor_time_from_ns(epoch_ns_) + (now - begin_); });
     width_px_ = static_cast<int>(options.model.width_px);
     height_px_ = static_cast<int>(options.model.height_px);
   }
@@ -57,24 +57,30 @@ class PulsedCamera {
   [[nodiscard]] GigeExposure exposure(std::uint32_t k) const {
     GigeExposure exposure;
     exposure.image = numbered_picture(width_px_, height_px_, k);
-    exposure.start = sensor_time_from_ns(kGigeEpoch_ns + std::int64_t{k} * period_.count());
+    exposure.start = sensor_time_from_ns(epoch_ns_ + std::int64_t{k} * period_.count());
     exposure.exposure_us = 8000.0F + static_cast<float>(k % 50);
     exposure.gain_db = 1.5F;
     return exposure;
   }
   /// Which pulse a frame's stamp, the middle of its exposure, belongs to.
   [[nodiscard]] std::uint32_t pulse_of(SensorTime middle) const {
-    return static_cast<std::uint32_t>((to_ns(middle) - kGigeEpoch_ns) / period_.count());
+    return static_cast<std::uint32_t>((to_ns(middle) - epoch_ns_) / period_.count());
   }
   [[nodiscard]] GigeServer& server() { return *server_; }
+  /// The camera's clock shows this at that moment. Call while no pulses run.
+  void set_epoch(std::int64_t epoch_ns, HostTime begin) {
+    epoch_ns_ = epoch_ns;
+    begin_ = begin;
+  }
   /// When the camera's clock showed this.
   [[nodiscard]] HostTime host_time_of(SensorTime stamp) const {
-    return begin_ + (stamp - sensor_time_from_ns(kGigeEpoch_ns));
+    return begin_ + (stamp - sensor_time_from_ns(epoch_ns_));
   }
 
  private:
   SteadyClock clock_;
   HostTime begin_ = clock_.now();
+  std::int64_t epoch_ns_ = kGigeEpoch_ns;
   nanoseconds period_;
   std::unique_ptr<GigeServer> server_;
   int width_px_ = 0, height_px_ = 0;
