@@ -6,6 +6,8 @@
 #include "common/base/check.hpp"
 #include "robot/drivers/livox/checksum.hpp"
 
+#include <algorithm>
+
 namespace edgesplat::livox {
 namespace {
 
@@ -47,24 +49,10 @@ void begin_list(ByteWriter& writer, std::uint16_t count) {
   writer.write(std::uint16_t{0});
 }
 
-void write_key(ByteWriter& writer, Key key, std::uint16_t value_bytes) {
-  writer.write(static_cast<std::uint16_t>(key));
-  writer.write(value_bytes);
-}
-
-void write_host(ByteWriter& writer, Key key, const HostAddress& host) {
-  write_key(writer, key, 8);
-  writer.write_bytes(std::as_bytes(std::span(host.ip)));
-  writer.write(host.host_port);
-  writer.write(host.lidar_port);
-}
-
 std::vector<std::byte> encode_set_byte(std::uint32_t sequence, Key key, std::uint8_t value) {
-  RequestWriter request(CommandId::kSetParameters, sequence);
-  begin_list(request.content(), 1);
-  write_key(request.content(), key, 1);
-  request.content().write(value);
-  return request.finish();
+  const std::array<std::uint8_t, 1> bytes{value};
+  const KeyValue parameter{key, std::as_bytes(std::span(bytes))};
+  return encode_set_parameters(sequence, std::span(&parameter, 1));
 }
 
 /// `count` entries {key, length, value}; memory grows with the bytes that are there, not with `count`.
@@ -87,14 +75,36 @@ std::vector<std::byte> encode_discovery(std::uint32_t sequence) {
   return RequestWriter(CommandId::kDiscovery, sequence).finish();
 }
 
+std::array<std::byte, 8> encode_host(const HostAddress& host) {
+  ByteWriter writer;
+  writer.write_bytes(std::as_bytes(std::span(host.ip)));
+  writer.write(host.host_port);
+  writer.write(host.lidar_port);
+  std::array<std::byte, 8> value{};
+  std::copy(writer.bytes().begin(), writer.bytes().end(), value.begin());
+  return value;
+}
+
+std::vector<std::byte> encode_set_parameters(std::uint32_t sequence, std::span<const KeyValue> parameters) {
+  RequestWriter request(CommandId::kSetParameters, sequence);
+  begin_list(request.content(), static_cast<std::uint16_t>(parameters.size()));
+  for (const auto& [key, value] : parameters) {
+    request.content().write(static_cast<std::uint16_t>(key));
+    request.content().write(static_cast<std::uint16_t>(value.size()));
+    request.content().write_bytes(value);
+  }
+  return request.finish();
+}
+
 std::vector<std::byte> encode_set_hosts(std::uint32_t sequence, const HostAddress& state,
                                         const HostAddress& points, const HostAddress& imu) {
-  RequestWriter request(CommandId::kSetParameters, sequence);
-  begin_list(request.content(), 3);
-  write_host(request.content(), Key::kStateHost, state);
-  write_host(request.content(), Key::kPointHost, points);
-  write_host(request.content(), Key::kImuHost, imu);
-  return request.finish();
+  const auto state_value = encode_host(state);
+  const auto points_value = encode_host(points);
+  const auto imu_value = encode_host(imu);
+  const std::array<KeyValue, 3> parameters{KeyValue{Key::kStateHost, state_value},
+                                           KeyValue{Key::kPointHost, points_value},
+                                           KeyValue{Key::kImuHost, imu_value}};
+  return encode_set_parameters(sequence, parameters);
 }
 
 std::vector<std::byte> encode_set_work_mode(std::uint32_t sequence, WorkMode mode) {
@@ -107,6 +117,12 @@ std::vector<std::byte> encode_set_point_type(std::uint32_t sequence, std::uint8_
 
 std::vector<std::byte> encode_set_imu(std::uint32_t sequence, bool enabled) {
   return encode_set_byte(sequence, Key::kImuEnabled, enabled ? std::uint8_t{1} : std::uint8_t{0});
+}
+
+std::vector<std::byte> encode_reboot(std::uint32_t sequence, std::uint16_t delay_ms) {
+  RequestWriter request(CommandId::kReboot, sequence);
+  request.content().write(delay_ms);
+  return request.finish();
 }
 
 std::vector<std::byte> encode_set_gps_time(std::uint32_t sequence, std::uint64_t edge_ns) {
@@ -163,19 +179,25 @@ Result<DiscoveredLidar> decode_discovery_ack(const CommandFrame& frame) {
   const auto return_code = reader.read<std::uint8_t>();
   DiscoveredLidar lidar;
   lidar.device_type = reader.read<std::uint8_t>();
-  const auto serial = reader.take(16);
+  const auto serial = reader.take(kSerialNumberBytes);
   for (std::uint8_t& part : lidar.ip) part = reader.read<std::uint8_t>();
   lidar.command_port = reader.read<std::uint16_t>();
   if (!reader.ok()) return fail(Errc::kBadPacket, "Livox discovery answer is shorter than 24 bytes");
   if (return_code != 0)
     return fail(Errc::kUnavailable,
                 "Livox LiDAR refused the discovery: " + std::string(describe_return_code(return_code)));
-  for (const std::byte byte : serial) {
-    const char letter = std::to_integer<char>(byte);
-    if (letter < ' ' || letter > '~') break;  // zero-padded ASCII
-    lidar.serial_number.push_back(letter);
-  }
+  lidar.serial_number = read_serial_number(serial);
   return lidar;
+}
+
+std::string read_serial_number(std::span<const std::byte> bytes) {
+  std::string serial_number;
+  for (const std::byte byte : bytes) {
+    const char letter = std::to_integer<char>(byte);
+    if (letter < ' ' || letter > '~') break;
+    serial_number.push_back(letter);
+  }
+  return serial_number;
 }
 
 Result<ParameterReply> decode_parameter_reply(const CommandFrame& frame) {

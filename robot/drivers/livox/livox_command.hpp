@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/base/result.hpp"
+#include "robot/drivers/livox/endpoint.hpp"
 
 #include <array>
 #include <cstddef>
@@ -46,6 +47,7 @@ enum class WorkMode : std::uint8_t { kSampling = 1, kIdle = 2, kReady = 9 };
 
 inline constexpr std::size_t kCommandHeaderBytes = 24;
 inline constexpr std::size_t kMaxCommandBytes = 1400;
+inline constexpr std::size_t kSerialNumberBytes = 16;
 
 /// A checked frame; `content` borrows from the datagram.
 struct CommandFrame {
@@ -56,18 +58,19 @@ struct CommandFrame {
   std::span<const std::byte> content;
 };
 
-/// One entry of a parameter list; `value` borrows from the datagram.
+/// One entry of a parameter list; `value` borrows, of a decoded one from the datagram.
 struct KeyValue {
   Key key{};
   std::span<const std::byte> value;
 };
 
-using Ipv4 = std::array<std::uint8_t, 4>;
 /// Where the LiDAR shall send one channel, and from which of its ports.
 struct HostAddress {
   Ipv4 ip{};
   std::uint16_t host_port = 0;
   std::uint16_t lidar_port = 0;
+
+  bool operator==(const HostAddress&) const = default;
 };
 
 /// Who answered a discovery.
@@ -90,12 +93,17 @@ struct ParameterReply {
 /// Tells the LiDAR where to send states, points and IMU (keys 5, 6, 7).
 [[nodiscard]] std::vector<std::byte> encode_set_hosts(std::uint32_t sequence, const HostAddress& state,
                                                       const HostAddress& points, const HostAddress& imu);
+/// Any parameters in one request. Precondition: together they fit into one frame.
+[[nodiscard]] std::vector<std::byte> encode_set_parameters(std::uint32_t sequence,
+                                                           std::span<const KeyValue> parameters);
 [[nodiscard]] std::vector<std::byte> encode_set_work_mode(std::uint32_t sequence, WorkMode mode);
 /// 1: int32 mm, 2: int16 cm, 3: spherical.
 [[nodiscard]] std::vector<std::byte> encode_set_point_type(std::uint32_t sequence, std::uint8_t type);
 [[nodiscard]] std::vector<std::byte> encode_set_imu(std::uint32_t sequence, bool enabled);
 /// Time of the last rising edge of the pulse-per-second line, ns since 1970.
 [[nodiscard]] std::vector<std::byte> encode_set_gps_time(std::uint32_t sequence, std::uint64_t edge_ns);
+/// The LiDAR starts anew after `delay_ms`.
+[[nodiscard]] std::vector<std::byte> encode_reboot(std::uint32_t sequence, std::uint16_t delay_ms);
 /// Precondition: at most 600 keys (one frame).
 [[nodiscard]] std::vector<std::byte> encode_query(std::uint32_t sequence, std::span<const Key> keys);
 
@@ -107,6 +115,10 @@ struct ParameterReply {
 [[nodiscard]] Result<ParameterReply> decode_parameter_reply(const CommandFrame& frame);
 /// Content of a state push.
 [[nodiscard]] Result<std::vector<KeyValue>> decode_state_push(const CommandFrame& frame);
+/// The value of kStateHost, kPointHost or kImuHost, 8 bytes.
+[[nodiscard]] std::array<std::byte, 8> encode_host(const HostAddress& host);
+/// Zero-padded ASCII, cut at the first byte that is no printable character.
+[[nodiscard]] std::string read_serial_number(std::span<const std::byte> bytes);
 /// What a return code means, for the operator.
 [[nodiscard]] std::string_view describe_return_code(std::uint8_t code);
 

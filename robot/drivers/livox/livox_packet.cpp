@@ -4,17 +4,16 @@
 
 #include "common/base/bytes.hpp"
 #include "robot/drivers/livox/checksum.hpp"
+#include "robot/drivers/livox/point_record.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace edgesplat::livox {
 namespace {
 
-constexpr double kStandardGravity_mps2 = 9.80665;  // the unit "g" of the IMU records
-constexpr std::size_t kCheckedFrom = 28;           // the checksum covers the stamp and the records
+constexpr std::size_t kCheckedFrom = 28;  // the checksum covers the stamp and the records
 constexpr std::uint16_t kLaserLines = 4;
 
 std::size_t record_bytes(DataType type) {
@@ -37,49 +36,27 @@ sensor::StampSource stamp_source_of(std::uint8_t time_type) {
   return sensor::StampSource::kFreeRunning;
 }
 
-struct RawPoint {
-  Eigen::Vector3f p_m;
-  bool has_return;
-  std::uint8_t reflectivity;
-  std::uint8_t tag;
-};
-
-RawPoint read_cartesian_mm(ByteReader& reader) {
-  const auto x_mm = reader.read<std::int32_t>();
-  const auto y_mm = reader.read<std::int32_t>();
-  const auto z_mm = reader.read<std::int32_t>();
-  const Eigen::Vector3f p_m = (Eigen::Vector3d(x_mm, y_mm, z_mm) * 1e-3)
-                                  .cast<float>();  // exact beyond 16.7 m, where float mm are not
+RawPoint finish(const RawPosition& position, ByteReader& reader) {
   const auto reflectivity = reader.read<std::uint8_t>();
-  return {p_m, (x_mm | y_mm | z_mm) != 0, reflectivity, reader.read<std::uint8_t>()};
+  return {position.p_m, position.has_return, reflectivity, reader.read<std::uint8_t>()};
 }
 
-RawPoint read_cartesian_cm(ByteReader& reader) {
+RawPosition read_centimetres(ByteReader& reader) {
   const auto x_cm = reader.read<std::int16_t>();
   const auto y_cm = reader.read<std::int16_t>();
   const auto z_cm = reader.read<std::int16_t>();
-  const Eigen::Vector3f p_m = (Eigen::Vector3d(x_cm, y_cm, z_cm) * 1e-2).cast<float>();
-  const auto reflectivity = reader.read<std::uint8_t>();
-  return {p_m, (x_cm | y_cm | z_cm) != 0, reflectivity, reader.read<std::uint8_t>()};
+  return {(Eigen::Vector3d(x_cm, y_cm, z_cm) * 1e-2).cast<float>(), (x_cm | y_cm | z_cm) != 0};
 }
 
-RawPoint read_spherical(ByteReader& reader) {
-  constexpr double kRadPerStep = std::numbers::pi / 18000.0;  // 0.01 degrees
+RawPosition read_spherical(ByteReader& reader) {
   const auto depth_mm = reader.read<std::uint32_t>();
-  const double zenith_rad = reader.read<std::uint16_t>() * kRadPerStep;
-  const double azimuth_rad = reader.read<std::uint16_t>() * kRadPerStep;
-  const double range_m = depth_mm * 1e-3;
-  const Eigen::Vector3d p_m(range_m * std::sin(zenith_rad) * std::cos(azimuth_rad),
-                            range_m * std::sin(zenith_rad) * std::sin(azimuth_rad),
-                            range_m * std::cos(zenith_rad));
-  const auto reflectivity = reader.read<std::uint8_t>();
-  return {p_m.cast<float>(), depth_mm != 0, reflectivity, reader.read<std::uint8_t>()};
+  return to_position(depth_mm, read_direction(reader));
 }
 
 RawPoint read_point(DataType type, ByteReader& reader) {
-  if (type == DataType::kCartesianMm) return read_cartesian_mm(reader);
-  if (type == DataType::kCartesianCm) return read_cartesian_cm(reader);
-  return read_spherical(reader);
+  if (type == DataType::kCartesianMm) return finish(read_millimetres(reader), reader);
+  if (type == DataType::kCartesianCm) return finish(read_centimetres(reader), reader);
+  return finish(read_spherical(reader), reader);
 }
 
 /// The worst of the three two-bit confidence fields.
@@ -102,6 +79,8 @@ std::string_view to_string(PacketFault fault) {
       return "dot_count";
     case PacketFault::kCrc:
       return "crc";
+    case PacketFault::kStamp:
+      return "stamp";
   }
   return "unknown";
 }
@@ -166,16 +145,17 @@ sensor::LidarPacket to_lidar_packet(const DataPacket& packet, HostTime arrival, 
   return out;
 }
 
-std::optional<sensor::ImuSample> to_imu_sample(const DataPacket& packet, HostTime arrival) {
-  ByteReader reader(packet.records);
+std::optional<sensor::ImuSample> to_imu_sample(const PacketTiming& timing, std::span<const std::byte> record,
+                                               HostTime arrival) {
+  ByteReader reader(record);
   std::array<float, 6> values{};
   for (float& value : values) value = reader.read<float>();
   if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
     return std::nullopt;
   sensor::ImuSample sample;
-  sample.stamp = packet.stamp;
+  sample.stamp = timing.stamp;
   sample.arrival = arrival;
-  sample.stamp_source = packet.stamp_source;
+  sample.stamp_source = timing.stamp_source;
   sample.gyro_radps = {values[0], values[1], values[2]};
   sample.accel_mps2 = Eigen::Vector3d(values[3], values[4], values[5]) * kStandardGravity_mps2;
   return sample;

@@ -29,21 +29,28 @@ enum class PacketFault : std::uint8_t {
   kType,      ///< unknown data type
   kDotCount,  ///< the number of records does not fit the length
   kCrc,       ///< the checksum over stamp and records is wrong
+  kStamp,     ///< SDK1: a date that does not exist
 };
 [[nodiscard]] std::string_view to_string(PacketFault fault);
 
 inline constexpr std::size_t kPacketHeaderBytes = 36;
 inline constexpr std::size_t kMaxPacketBytes = 1500;
 
-/// A checked packet; `records` borrows from the datagram.
-struct DataPacket {
-  DataType type = DataType::kImu;
+/// When a packet was measured, and its number, if it has one: what its channel is watched by.
+struct PacketTiming {
   sensor::StampSource stamp_source = sensor::StampSource::kFreeRunning;
-  std::uint16_t record_count = 0;
+  SensorTime stamp{};           ///< of the first record
+  nanoseconds span{};           ///< first to last record
+  bool is_numbered = true;      ///< SDK1's packets are not: losses show in the stamps alone
+  nanoseconds period{};         ///< not numbered: from this packet to the next
   std::uint16_t udp_count = 0;  ///< +1 a packet; some scan patterns restart it with each frame
   std::uint8_t frame_count = 0;
-  SensorTime stamp{};  ///< of the first record
-  nanoseconds span{};  ///< first to last record
+};
+
+/// A checked packet of SDK2; `records` borrows from the datagram.
+struct DataPacket : PacketTiming {
+  DataType type = DataType::kImu;
+  std::uint16_t record_count = 0;
   std::span<const std::byte> records;
 };
 
@@ -66,7 +73,10 @@ struct PointDrops {
 /// Adds what it leaves out to `drops`. Precondition: packet.type is a point type.
 [[nodiscard]] sensor::LidarPacket to_lidar_packet(const DataPacket& packet, HostTime arrival,
                                                   PointFilter filter, PointDrops& drops);
-/// Record to SI units; nothing where a value is not finite. Precondition: packet.type is kImu.
-[[nodiscard]] std::optional<sensor::ImuSample> to_imu_sample(const DataPacket& packet, HostTime arrival);
+/// The record of an IMU packet (24 bytes, the same in SDK1 and SDK2) to SI units; nothing where a value is
+/// not finite.
+[[nodiscard]] std::optional<sensor::ImuSample> to_imu_sample(const PacketTiming& timing,
+                                                             std::span<const std::byte> record,
+                                                             HostTime arrival);
 
 }  // namespace edgesplat::livox

@@ -4,6 +4,7 @@
 
 #include "common/sensor/measurement.hpp"
 #include "robot/drivers/livox/livox_packet.hpp"
+#include "robot/drivers/livox/sdk1_packet.hpp"
 #include "robot/drivers/livox/stream_monitor.hpp"
 
 #include <cstddef>
@@ -13,6 +14,12 @@
 
 namespace edgesplat::livox {
 
+/// Which of Livox' two protocols a LiDAR speaks.
+enum class Protocol : std::uint8_t {
+  kSdk1,  ///< Avia, Horizon, Mid-40, Mid-70, Tele-15
+  kSdk2,  ///< Mid-360, HAP
+};
+
 /// Everything the source saw; nothing is lost without being counted here.
 struct LivoxCounters {
   StreamCounters points;
@@ -21,17 +28,18 @@ struct LivoxCounters {
   std::uint64_t bad_version = 0;
   std::uint64_t bad_type = 0;  ///< unknown type, or a type on the wrong channel
   std::uint64_t bad_crc = 0;
-  std::uint64_t bad_value = 0;  ///< IMU record that is not finite
+  std::uint64_t bad_value = 0;  ///< IMU record that is not finite, date that does not exist
   PointDrops dropped_points;
   std::uint64_t points_out = 0;  ///< points handed on
 };
 
-/// Datagrams of a Livox sensor (Mid-360, HAP) to measurements. The same for a socket and a recording: whoever
-/// has bytes and their arrival time feeds them here. A damaged packet is counted and never used.
-/// Thread-bound; the only allocation is the vector of points.
+/// Datagrams of a Livox sensor to measurements. The same for a socket and a recording: whoever has bytes and
+/// their arrival time feeds them here. A damaged packet is counted and never used. Thread-bound; the only
+/// allocation is the vector of points.
 class LivoxSource {
  public:
-  explicit LivoxSource(PointFilter filter = {}) : filter_(filter) {}
+  explicit LivoxSource(Protocol protocol = Protocol::kSdk2, PointFilter filter = {})
+      : protocol_(protocol), filter_(filter) {}
 
   /// One datagram of the point channel; a LidarPacket unless it was refused.
   [[nodiscard]] std::optional<sensor::Measurement> on_points(std::span<const std::byte> datagram,
@@ -40,13 +48,24 @@ class LivoxSource {
   [[nodiscard]] std::optional<sensor::Measurement> on_imu(std::span<const std::byte> datagram,
                                                           HostTime arrival);
   [[nodiscard]] LivoxCounters counters() const;
+  /// What disciplines the LiDAR's clock, by its newest packet.
+  [[nodiscard]] sensor::StampSource stamp_source() const { return stamp_source_; }
 
  private:
+  [[nodiscard]] std::optional<sensor::Measurement> on_sdk1(std::span<const std::byte> datagram,
+                                                           HostTime arrival, bool imu_channel);
+  [[nodiscard]] std::optional<sensor::Measurement> accept_imu(const PacketTiming& timing,
+                                                              std::span<const std::byte> record,
+                                                              HostTime arrival);
+  sensor::Measurement hand_on(sensor::LidarPacket points);
   void count(PacketFault fault);
 
+  Protocol protocol_;
   PointFilter filter_;
   StreamMonitor points_;
   StreamMonitor imu_;
+  PulseTime pulses_;
+  sensor::StampSource stamp_source_ = sensor::StampSource::kFreeRunning;
   LivoxCounters counters_;
 };
 

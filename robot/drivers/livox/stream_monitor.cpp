@@ -18,7 +18,7 @@ double passed_ns(std::int64_t from_ns, std::int64_t to_ns) {
 
 }  // namespace
 
-bool StreamMonitor::accept(const DataPacket& packet, HostTime arrival) {
+bool StreamMonitor::accept(const PacketTiming& packet, HostTime arrival) {
   const bool source_changed = started_ && packet.stamp_source != source_;
   if (source_changed) ++counters_.clock_changes;
   if (!started_ || source_changed) {
@@ -47,12 +47,13 @@ bool StreamMonitor::accept(const DataPacket& packet, HostTime arrival) {
   newest_stamp_ns_ = stamp_ns;
   newest_arrival_ns_ = to_ns(arrival);
   newest_span_ns_ = packet.span.count();
+  newest_period_ns_ = packet.period.count();
   newest_count_ = packet.udp_count;
   newest_frame_ = packet.frame_count;
   return true;
 }
 
-bool StreamMonitor::was_seen(const DataPacket& packet) const {
+bool StreamMonitor::was_seen(const PacketTiming& packet) const {
   const std::int64_t stamp_ns = to_ns(packet.stamp);
   if (stamp_ns > newest_stamp_ns_) return false;
   for (const Seen& seen : recent_)
@@ -61,7 +62,7 @@ bool StreamMonitor::was_seen(const DataPacket& packet) const {
 }
 
 /// Sane: not more than 1 ms back and, given the time that passed here, not more than 1 s off.
-bool StreamMonitor::stamp_is_sane(const DataPacket& packet, HostTime arrival) {
+bool StreamMonitor::stamp_is_sane(const PacketTiming& packet, HostTime arrival) {
   const std::int64_t stamp_ns = to_ns(packet.stamp);
   const std::int64_t arrival_ns = to_ns(arrival);
   const std::int64_t step_ns = stamp_ns - newest_stamp_ns_;
@@ -83,7 +84,11 @@ bool StreamMonitor::stamp_is_sane(const DataPacket& packet, HostTime arrival) {
   return true;
 }
 
-void StreamMonitor::count_holes(const DataPacket& packet) {
+void StreamMonitor::count_holes(const PacketTiming& packet) {
+  if (!packet.is_numbered) {
+    count_missing_stamps(packet);
+    return;
+  }
   const auto step = static_cast<std::uint16_t>(packet.udp_count - newest_count_);
   const bool new_frame = packet.udp_count == 0 && packet.frame_count != newest_frame_;
   const bool has_hole = step > 1 && step <= kMaxHole && !new_frame;
@@ -93,12 +98,22 @@ void StreamMonitor::count_holes(const DataPacket& packet) {
   if (silent && !has_hole) ++counters_.stamp_gaps;
 }
 
-void StreamMonitor::remember(const DataPacket& packet) {
+/// Packets follow each other without a pause, so a hole of n periods lacks n packets. A longer silence is the
+/// device's, not the wire's.
+void StreamMonitor::count_missing_stamps(const PacketTiming& packet) {
+  if (newest_period_ns_ <= 0) return;
+  const std::int64_t missing =
+      (to_ns(packet.stamp) - newest_stamp_ns_ + newest_period_ns_ / 2) / newest_period_ns_ - 1;
+  if (missing > kMaxHole) ++counters_.stamp_gaps;
+  if (missing > 0 && missing <= kMaxHole) counters_.lost += static_cast<std::uint64_t>(missing);
+}
+
+void StreamMonitor::remember(const PacketTiming& packet) {
   recent_[recent_next_] = {to_ns(packet.stamp), packet.udp_count};
   recent_next_ = (recent_next_ + 1) % recent_.size();
 }
 
-void StreamMonitor::restart(const DataPacket& packet, HostTime arrival) {
+void StreamMonitor::restart(const PacketTiming& packet, HostTime arrival) {
   started_ = true;
   agreeing_ = 0;
   source_ = packet.stamp_source;
@@ -107,6 +122,7 @@ void StreamMonitor::restart(const DataPacket& packet, HostTime arrival) {
   newest_stamp_ns_ = to_ns(packet.stamp);
   newest_arrival_ns_ = to_ns(arrival);
   newest_span_ns_ = packet.span.count();
+  newest_period_ns_ = packet.period.count();
   newest_count_ = packet.udp_count;
   newest_frame_ = packet.frame_count;
 }

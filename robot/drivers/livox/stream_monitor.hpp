@@ -12,8 +12,8 @@ namespace edgesplat::livox {
 /// What went wrong on one channel.
 struct StreamCounters {
   std::uint64_t packets = 0;        ///< used
-  std::uint64_t lost = 0;           ///< holes in the packet numbers
-  std::uint64_t stamp_gaps = 0;     ///< silences > 1.5 packets that the numbers do not explain
+  std::uint64_t lost = 0;           ///< holes in the packet numbers (SDK1: in the stamps)
+  std::uint64_t stamp_gaps = 0;     ///< silences > 1.5 packets that no lost packet explains
   std::uint64_t duplicate = 0;      ///< seen before, not used
   std::uint64_t reordered = 0;      ///< overtaken on the way, by less than 1 ms: used
   std::uint64_t bad_stamp = 0;      ///< stamp > 1 ms back or > 1 s off: not used
@@ -28,7 +28,7 @@ class StreamMonitor {
   static constexpr int kAgreeingForRestart = 10;
 
   /// True if the packet is to be used.
-  [[nodiscard]] bool accept(const DataPacket& packet, HostTime arrival);
+  [[nodiscard]] bool accept(const PacketTiming& packet, HostTime arrival);
   [[nodiscard]] const StreamCounters& counters() const { return counters_; }
 
  private:
@@ -36,11 +36,12 @@ class StreamMonitor {
     std::int64_t stamp_ns = -1;
     std::uint16_t udp_count = 0;
   };
-  [[nodiscard]] bool was_seen(const DataPacket& packet) const;
-  [[nodiscard]] bool stamp_is_sane(const DataPacket& packet, HostTime arrival);
-  void count_holes(const DataPacket& packet);
-  void remember(const DataPacket& packet);
-  void restart(const DataPacket& packet, HostTime arrival);
+  [[nodiscard]] bool was_seen(const PacketTiming& packet) const;
+  [[nodiscard]] bool stamp_is_sane(const PacketTiming& packet, HostTime arrival);
+  void count_holes(const PacketTiming& packet);
+  void count_missing_stamps(const PacketTiming& packet);
+  void remember(const PacketTiming& packet);
+  void restart(const PacketTiming& packet, HostTime arrival);
 
   StreamCounters counters_;
   bool started_ = false;
@@ -48,6 +49,7 @@ class StreamMonitor {
   std::int64_t newest_stamp_ns_ = 0;
   std::int64_t newest_arrival_ns_ = 0;
   std::int64_t newest_span_ns_ = 0;
+  std::int64_t newest_period_ns_ = 0;
   std::uint16_t newest_count_ = 0;
   std::uint8_t newest_frame_ = 0;
   std::array<Seen, 32> recent_{};

@@ -43,7 +43,7 @@ TEST(LivoxPacket, DecodesThePublishedImuPacket) {
   const auto packet = decode_packet(bytes);
   ASSERT_TRUE(packet.has_value()) << to_string(packet.error());
   ASSERT_EQ(packet->type, DataType::kImu);
-  const auto sample = to_imu_sample(*packet, {});
+  const auto sample = to_imu_sample(*packet, packet->records, {});
   ASSERT_TRUE(sample.has_value());
   EXPECT_NEAR(sample->gyro_radps.x(), 0.01, 1e-8);
   EXPECT_NEAR(sample->gyro_radps.y(), -0.02, 1e-8);
@@ -165,7 +165,7 @@ TEST(LivoxPacket, RefusesAnImuRecordThatIsNotFinite) {
   const auto bytes = packet_bytes(fields);
   const auto packet = decode_packet(bytes);
   ASSERT_TRUE(packet.has_value());
-  EXPECT_FALSE(to_imu_sample(*packet, {}).has_value());
+  EXPECT_FALSE(to_imu_sample(*packet, packet->records, {}).has_value());
 }
 
 }  // namespace

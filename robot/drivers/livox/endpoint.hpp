@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace edgesplat::livox {
+
+using Ipv4 = std::array<std::uint8_t, 4>;
+
+/// One end of UDP traffic.
+struct Endpoint {
+  Ipv4 ip{};
+  std::uint16_t port = 0;
+
+  bool operator==(const Endpoint&) const = default;
+};
+
+/// "192.168.1.5"
+[[nodiscard]] inline std::string to_string(const Ipv4& ip) {
+  return std::to_string(ip[0]) + "." + std::to_string(ip[1]) + "." + std::to_string(ip[2]) + "." +
+         std::to_string(ip[3]);
+}
+
+}  // namespace edgesplat::livox
