@@ -8,6 +8,14 @@
 
 namespace edgesplat::livox {
 
+/// What a UDP socket of the host is for.
+enum class Channel : std::uint8_t {
+  kPoints,
+  kImu,
+  kControl,  ///< requests out, answers in; SDK2: discovery too
+  kPush,     ///< SDK2: state pushes; SDK1: announcements
+};
+
 using Ipv4 = std::array<std::uint8_t, 4>;
 
 /// One end of UDP traffic.
@@ -17,6 +25,8 @@ struct Endpoint {
 
   bool operator==(const Endpoint&) const = default;
 };
+
+inline constexpr Ipv4 kBroadcast{255, 255, 255, 255};
 
 /// "192.168.1.5"
 [[nodiscard]] inline std::string to_string(const Ipv4& ip) {

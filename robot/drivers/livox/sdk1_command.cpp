@@ -119,7 +119,7 @@ Result<Sdk1Frame> decode_sdk1(std::span<const std::byte> datagram) {
 }
 
 Result<Sdk1Announcement> decode_sdk1_announcement(const Sdk1Frame& frame) {
-  EDGESPLAT_TRY_STATUS(expect(frame, Sdk1Command::kBroadcast, Sdk1FrameType::kMessage, "announcement"));
+  EDGESPLAT_TRY_STATUS(expect(frame, Sdk1Command::kAnnouncement, Sdk1FrameType::kMessage, "announcement"));
   ByteReader reader(frame.content);
   Sdk1Announcement announcement;
   announcement.serial_number = read_serial_number(reader.take(kSerialNumberBytes));

@@ -18,7 +18,7 @@ namespace edgesplat::livox {
 /// 2.4). The LiDAR announces itself on UDP 55000, the host talks to its port 65000. Set and id in one number:
 /// 0x0104 is id 4 of set 1.
 enum class Sdk1Command : std::uint16_t {
-  kBroadcast = 0x0000,  ///< LiDAR to host: who I am
+  kAnnouncement = 0x0000,  ///< LiDAR to host: who I am
   kHandshake = 0x0001,
   kDeviceInfo = 0x0002,
   kHeartbeat = 0x0003,
@@ -42,7 +42,7 @@ inline constexpr std::size_t kSdk1FrameBytes = 15;  ///< of a frame without cont
 struct Sdk1Frame {
   Sdk1FrameType type = Sdk1FrameType::kRequest;
   std::uint16_t sequence = 0;  ///< an acknowledgement repeats that of its request
-  Sdk1Command command = Sdk1Command::kBroadcast;
+  Sdk1Command command = Sdk1Command::kAnnouncement;
   std::span<const std::byte> content;
 };
 

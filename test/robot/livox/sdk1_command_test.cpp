@@ -94,7 +94,8 @@ TEST(Sdk1Command, ReadsTheStatusWordFromItsLowEnd) {
 TEST(Sdk1Command, RefusesContentThatEndsEarly) {
   const auto whole = from_hex("3047000000000000000000000000000007000000000000");
   for (std::size_t length = 0; length < 19; ++length) {
-    const Sdk1Frame cut{Sdk1FrameType::kMessage, 1, Sdk1Command::kBroadcast, std::span(whole).first(length)};
+    const Sdk1Frame cut{Sdk1FrameType::kMessage, 1, Sdk1Command::kAnnouncement,
+                        std::span(whole).first(length)};
     EXPECT_EQ(decode_sdk1_announcement(cut).error().code, Errc::kBadPacket) << length;
   }
   for (std::size_t length = 0; length < 7; ++length) {

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/drivers/livox/lidar_session.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace edgesplat::livox {
+namespace {
+
+constexpr std::size_t kForeignRemembered = 16;
+constexpr nanoseconds kNobodyAfter = std::chrono::seconds(5);
+constexpr nanoseconds kFirstDataPatience = std::chrono::seconds(2);
+
+std::string seconds_text(nanoseconds duration) {
+  std::array<char, 32> text{};
+  (void)std::snprintf(text.data(), text.size(), "%.2f s", to_seconds(duration));
+  return text.data();
+}
+
+}  // namespace
+
+const LidarEventName& name_of(LidarEventKind kind) {
+  static constexpr std::array<LidarEventName, kLidarEventKinds> kNames{{
+      {"LiDAR found", "livox.found", false},
+      {"LiDAR measures", "livox.starts", false},
+      {"LiDAR fell silent", "livox.silences", true},
+      {"LiDAR data are back", "livox.recoveries", false},
+      {"LiDAR does not answer", "livox.unreachable", true},
+      {"LiDAR has another address", "livox.moves", true},
+      {"LiDAR refused a setting", "livox.refusals", true},
+      {"LiDAR has no firmware", "livox.no_firmware", true},
+      {"another LiDAR is on the wire", "livox.foreign_units", true},
+      {"LiDAR clock", "livox.sync_changes", true},
+      {"LiDAR reports a fault", "livox.faults", true},
+      {"LiDAR clock started anew", "livox.clock_restarts", true},
+  }};
+  return kNames.at(static_cast<std::size_t>(kind));
+}
+
+void LidarSession::on_data(Channel channel, HostTime now) {
+  watch_.on_data(channel, now);
+  if (const auto silence = watch_.check_return())
+    tell(LidarEventKind::kRecovered, "after " + seconds_text(*silence));
+}
+
+HostTime LidarSession::step(HostTime now) {
+  if (const std::string silent = watch_.check_silence(now); !silent.empty()) {
+    tell(LidarEventKind::kSilent, silent);
+    on_silence(now);
+  }
+  const bool feeds = config_.feeds_utc && is_sampling();
+  if (!feeds) {
+    utc_feed_.skip();
+  } else if (const auto utc_ns = utc_feed_.due(now)) {
+    send_utc(*utc_ns);
+    ++counters_.utc_told;
+  }
+  const HostTime next = std::min(step_protocol(now), watch_.next_check());
+  return feeds ? std::min(next, utc_feed_.next_due()) : next;
+}
+
+void LidarSession::send(const Endpoint& to, std::vector<std::byte> bytes) {
+  ++counters_.requests;
+  outgoing_.push_back({to, std::move(bytes)});
+}
+
+void LidarSession::tell(LidarEventKind kind, std::string detail) {
+  ++counters_.events.at(static_cast<std::size_t>(kind));
+  events_.push_back({kind, std::move(detail)});
+}
+
+bool LidarSession::is_wanted(const std::string& serial_number, const Ipv4& ip) {
+  // SDK1 announces the serial number and one character more: both may be configured.
+  const bool wanted = config_.serial_number.empty()
+                          ? !unit_ || unit_->serial_number.empty() || unit_->serial_number == serial_number
+                          : serial_number.starts_with(config_.serial_number);
+  if (wanted) return true;
+  const bool told = std::find(foreign_.begin(), foreign_.end(), serial_number) != foreign_.end();
+  if (!told && foreign_.size() < kForeignRemembered) {
+    foreign_.push_back(serial_number);
+    tell(LidarEventKind::kForeign, serial_number + " at " + to_string(ip) + ", left alone");
+  }
+  return false;
+}
+
+void LidarSession::meet(const std::string& serial_number, const Endpoint& at) {
+  if (unit_ && unit_->at.ip != at.ip)
+    tell(LidarEventKind::kMoved,
+         serial_number + " from " + to_string(unit_->at.ip) + " to " + to_string(at.ip));
+  note_heard();
+  unit_ = Unit{serial_number, at};
+}
+
+void LidarSession::note_sync(std::string sync) {
+  if (sync == health_.sync) return;
+  const bool first = health_.sync == "unknown";
+  if (!first) tell(LidarEventKind::kSyncChanged, health_.sync + " -> " + sync);
+  health_.sync = std::move(sync);
+}
+
+void LidarSession::note_unreachable(const std::string& why) {
+  if (std::exchange(unreachable_, true)) return;
+  tell(LidarEventKind::kUnreachable, why);
+}
+
+void LidarSession::note_nobody(HostTime now) {
+  if (unit_) return;
+  if (!searching_since_) searching_since_ = now;
+  if (now - *searching_since_ < kNobodyAfter) return;
+  const std::string wanted = config_.serial_number.empty() ? "no LiDAR" : "not " + config_.serial_number;
+  note_unreachable(wanted + " has answered: check power, cable and this machine's address");
+}
+
+void LidarSession::note_sampling(HostTime now) {
+  watch_.expect(now, kFirstDataPatience);
+  tell(LidarEventKind::kSampling, unit_->serial_number + " at " + to_string(unit_->at.ip));
+}
+
+}  // namespace edgesplat::livox
