@@ -9,12 +9,18 @@ namespace edgesplat::io {
 
 inline constexpr std::string_view kLidarPointsTopic = "/lidar/points_raw";
 inline constexpr std::string_view kLidarImuTopic = "/lidar/imu_raw";
+inline constexpr std::string_view kLidarControlTopic = "/lidar/control_raw";
 inline constexpr std::string_view kCameraMetaTopic = "/camera/meta";
 inline constexpr std::string_view kCameraImageTopic = "/camera/image";
 inline constexpr std::string_view kTruthBodyPoseTopic = "/truth/body_pose";
 inline constexpr std::string_view kTruthCameraCleanTopic = "/truth/camera_clean";
 inline constexpr std::string_view kTruthCameraMaskTopic = "/truth/camera_mask";
 inline constexpr std::string_view kTruthCameraDepthTopic = "/truth/camera_depth";
+
+/// Metadata of the /lidar channels: the wire protocol of their datagrams; without it SDK2.
+inline constexpr std::string_view kProtocolKey = "protocol";
+inline constexpr std::string_view kLivoxSdk1 = "livox_sdk1";
+inline constexpr std::string_view kLivoxSdk2 = "livox_sdk2";
 
 inline constexpr std::string_view kRigAttachment = "rig.toml";
 inline constexpr std::string_view kWorldAttachment = "world.toml";

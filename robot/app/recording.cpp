@@ -10,8 +10,9 @@ namespace edgesplat::app {
 
 Result<std::unique_ptr<Recording>> Recording::start(const std::filesystem::path& path,
                                                     const std::string& rig_toml,
-                                                    const std::string& robot_toml) {
-  EDGESPLAT_TRY(auto recorder, replay::Recorder::create(path, rig_toml, robot_toml));
+                                                    const std::string& robot_toml,
+                                                    const replay::RecorderConfig& config) {
+  EDGESPLAT_TRY(auto recorder, replay::Recorder::create(path, rig_toml, robot_toml, config));
   return std::unique_ptr<Recording>(new Recording(std::move(recorder)));
 }
 

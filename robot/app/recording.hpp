@@ -20,7 +20,8 @@ class Recording {
  public:
   /// kIo where the file cannot be created.
   static Result<std::unique_ptr<Recording>> start(const std::filesystem::path& path,
-                                                  const std::string& rig_toml, const std::string& robot_toml);
+                                                  const std::string& rig_toml, const std::string& robot_toml,
+                                                  const replay::RecorderConfig& config = {});
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
   ~Recording() = default;

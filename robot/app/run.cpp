@@ -55,7 +55,10 @@ Status run_sensors(const Options& o, const robot_config::RobotConfig& config, co
                    const std::stop_token& stop) {
   std::unique_ptr<Recording> recording;
   if (!o.record.empty()) {
-    EDGESPLAT_TRY(recording, Recording::start(o.record, config::to_toml(rig), config::to_toml(config)));
+    replay::RecorderConfig recorder;
+    recorder.lidar_protocol = livox::LidarDriver::protocol_of(config.livox.model);
+    EDGESPLAT_TRY(recording,
+                  Recording::start(o.record, config::to_toml(rig), config::to_toml(config), recorder));
   }
   EDGESPLAT_TRY(const auto input,
                 LiveInput::open(config, rig, clock, sink, recording ? recording->recorder() : nullptr));

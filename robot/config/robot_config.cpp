@@ -10,10 +10,28 @@ namespace {
 using config::ConfigReader;
 using config::Range;
 
-void describe_livox(ConfigReader& reader, LivoxPorts& c) {
+void describe_livox(ConfigReader& reader, LivoxSettings& c) {
+  reader.choice("model", c.model,
+                {{"listen", livox::LidarChoice::kListen},
+                 {"mid360", livox::LidarChoice::kMid360},
+                 {"avia", livox::LidarChoice::kAvia}},
+                "found, started and kept; listen = takes what comes and commands nothing");
+  reader.field("serial", c.serial, "serial number of the LiDAR to use; empty = the first that answers");
+  reader.field("address", c.address,
+               "where it is, and data from elsewhere are dropped; empty = searched for");
+  reader.choice("returns", c.returns,
+                {{"first", livox::ReturnMode::kFirst},
+                 {"strongest", livox::ReturnMode::kStrongest},
+                 {"dual", livox::ReturnMode::kDual},
+                 {"triple", livox::ReturnMode::kTriple}},
+                "of each shot of an Avia");
+  reader.field("pulse_per_second", c.pulse_per_second,
+               "a pulse at each full second of UTC reaches it: it is told which second");
   reader.field("bind_address", c.bind_address, "address of the interface the LiDAR is on; 0.0.0.0 = all");
   reader.field("points_port", c.points_port, {1, 65535}, "UDP port the points arrive at");
   reader.field("imu_port", c.imu_port, {1, 65535}, "UDP port the IMU samples arrive at");
+  reader.field("control_port", c.control_port, {0, 65535}, "UDP port it is commanded from; 0 = any");
+  reader.field("push_port", c.push_port, {0, 65535}, "UDP port a Mid-360 reports its state to; 0 = any");
 }
 
 void describe_camera(ConfigReader& reader, CameraSettings& c) {

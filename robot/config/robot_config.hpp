@@ -6,6 +6,7 @@
 #include "common/link/link_config.hpp"
 #include "common/policy/offload_policy.hpp"
 #include "robot/drivers/aravis/camera_config.hpp"
+#include "robot/drivers/livox/lidar_driver.hpp"
 #include "robot/keyframe/keyframe_config.hpp"
 #include "robot/local_mapping/local_mapping_config.hpp"
 #include "robot/map/resident_map.hpp"
@@ -22,10 +23,17 @@ class ConfigReader;
 
 namespace edgesplat::robot_config {
 
-struct LivoxPorts {
+struct LivoxSettings {
+  livox::LidarChoice model = livox::LidarChoice::kListen;
+  std::string serial;   ///< empty: the first that answers
+  std::string address;  ///< empty: it is searched for
+  livox::ReturnMode returns = livox::ReturnMode::kFirst;
+  bool pulse_per_second = false;
   std::string bind_address = "0.0.0.0";
   std::uint16_t points_port = 56301;
   std::uint16_t imu_port = 56401;
+  std::uint16_t control_port = 56101;
+  std::uint16_t push_port = 56201;
 };
 
 enum class CameraSource : std::uint8_t { kFrameSocket, kGige };
@@ -73,7 +81,7 @@ struct ServerLink {
 
 /// Everything edgesplat-robot can be told, module by module.
 struct RobotConfig {
-  LivoxPorts livox;
+  LivoxSettings livox;
   CameraSettings camera;
   sync::GroupBuilderConfig sync;
   tracking::TrackingConfig tracking;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/thread/stop_signal.hpp"
 #include "tools/desk/verbs.hpp"
+#include "tools/virtual_device/lidar_fault.hpp"
 #include "tools/virtual_device/stream.hpp"
 
 #include <CLI/CLI.hpp>
@@ -10,15 +11,53 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace edgesplat::desk {
 namespace {
 
 struct StreamVerbOptions {
   virtual_device::StreamOptions stream;
+  std::string lidar = "raw";
+  std::string lidar_address = "127.0.0.1";
+  std::string lidar_sync = "ptp";
+  std::vector<std::string> lidar_faults;
+  virtual_device::LidarDeviceConfig device;
   bool json = false;
 };
+
+/// The virtual LiDAR that was asked for; nothing for bare datagrams.
+Result<std::optional<virtual_device::LidarDeviceConfig>> lidar_device(const StreamVerbOptions& options) {
+  if (options.lidar == "raw") return std::nullopt;
+  virtual_device::LidarDeviceConfig device = options.device;
+  device.model =
+      options.lidar == "avia" ? virtual_device::LidarModel::kAvia : virtual_device::LidarModel::kMid360;
+  device.seed = options.stream.seed;
+  device.unit.clock.seed = options.stream.seed;
+  using virtual_device::UnitSync;
+  device.unit.clock.sync = options.lidar_sync == "ptp"   ? UnitSync::kPtp
+                           : options.lidar_sync == "gps" ? UnitSync::kPulse
+                                                         : UnitSync::kNone;
+  EDGESPLAT_TRY(device.unit.ip, virtual_device::parse_address(options.lidar_address));
+  for (const std::string& text : options.lidar_faults) {
+    EDGESPLAT_TRY(device.faults.emplace_back(), virtual_device::parse_lidar_fault(text));
+  }
+  return device;
+}
+
+nlohmann::json lidar_json(const virtual_device::LidarDeviceCounters& lidar) {
+  return {{"unsent", lidar.unsent},
+          {"faults", lidar.faults},
+          {"requests", lidar.unit.requests},
+          {"bad_frames", lidar.unit.bad_frames},
+          {"refused", lidar.unit.refused},
+          {"written", lidar.unit.written},
+          {"sessions", lidar.unit.sessions},
+          {"seconds_told", lidar.unit.seconds_told},
+          {"seconds_late", lidar.unit.seconds_late}};
+}
 
 nlohmann::json to_json(const virtual_device::StreamReport& report) {
   return {{"event", "done"},
@@ -37,12 +76,16 @@ nlohmann::json to_json(const virtual_device::StreamReport& report) {
           {"most_late_ms", 1e3 * to_seconds(report.most_late)},
           {"camera_connected", report.camera_connected},
           {"stopped", report.stopped},
+          {"lidar_asked", report.lidar_asked},
+          {"lidar", report.lidar ? lidar_json(*report.lidar) : nlohmann::json()},
           {"recording_problem", report.recording_problem}};
 }
 
 Status run_stream(const StreamVerbOptions& options) {
   const thread::StopSignal stop;
-  EDGESPLAT_TRY(const auto report, virtual_device::stream_recording(options.stream, stop.token()));
+  virtual_device::StreamOptions stream = options.stream;
+  EDGESPLAT_TRY(stream.lidar, lidar_device(options));
+  EDGESPLAT_TRY(const auto report, virtual_device::stream_recording(stream, stop.token()));
   const nlohmann::json figures = to_json(report);
   if (options.json) {
     std::printf("%s\n", figures.dump().c_str());
@@ -54,12 +97,44 @@ Status run_stream(const StreamVerbOptions& options) {
   return {};
 }
 
+void add_lidar_options(CLI::App& verb, StreamVerbOptions& options) {
+  auto& unit = options.device.unit;
+  verb.add_option(
+          "--lidar", options.lidar,
+          "raw = datagrams as recorded to --points-port and --imu-port; mid360, avia = a virtual LiDAR that "
+          "the robot has to find and to start, with a clock of its own")
+      ->check(CLI::IsMember({"raw", "mid360", "avia"}))
+      ->capture_default_str();
+  verb.add_option("--lidar-address", options.lidar_address, "Its IPv4 address, one of this machine's")
+      ->capture_default_str();
+  verb.add_option("--lidar-serial", unit.serial_number, "Its serial number, 14 characters")
+      ->capture_default_str();
+  verb.add_option("--lidar-sync", options.lidar_sync, "What disciplines its clock")
+      ->check(CLI::IsMember({"none", "ptp", "gps"}))
+      ->capture_default_str();
+  verb.add_option("--lidar-drift-ppm", unit.clock.drift_ppm, "Of its crystal")
+      ->check(CLI::Range(-1000.0, 1000.0))
+      ->capture_default_str();
+  verb.add_option("--lidar-servo-s", unit.clock.servo_sigma_s, "Deviation of its clock's servo")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  verb.add_option(
+          "--lidar-fault", options.lidar_faults,
+          "silence@T+S, reboot@T+S, address@T+S=IP, loss@T+S=SHARE, stuck-sync@T, clock-step@T=S (T, S in "
+          "seconds); may be repeated")
+      ->allow_extra_args(false);
+  verb.add_option("--wait-for-lidar", options.stream.wait_for_lidar_s,
+                  "Seconds to wait for the robot to start a virtual LiDAR")
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_stream_verb(CLI::App& app, VerbContext& context) {
   auto* verb = app.add_subcommand("stream", "Play a recording as the devices: UDP datagrams and a camera");
   auto options = std::make_shared<StreamVerbOptions>();
   auto& stream = options->stream;
+  options->device.unit.clock.servo_sigma_s = 1e-6;  // beside the noise that the recording's stamps have
   verb->add_option("recording", stream.recording, "The .mcap to play")->required();
   verb->add_option("--to", stream.to, "IPv4 address of the robot")->capture_default_str();
   verb->add_option("--points-port", stream.points_port, "UDP port for points")->capture_default_str();
@@ -82,6 +157,7 @@ void add_stream_verb(CLI::App& app, VerbContext& context) {
   verb->add_option("--flip-bits", stream.faults.flip, "Share of datagrams with one bit flipped, 0..1");
   verb->add_option("--drop", stream.faults.drop, "Share of datagrams lost, 0..1");
   verb->add_option("--seed", stream.seed, "Of the faults")->capture_default_str();
+  add_lidar_options(*verb, *options);
   verb->add_flag("--json", options->json, "The result as one JSON line on stdout");
   verb->callback([options, &context] { context.work = [options] { return run_stream(*options); }; });
 }

@@ -46,11 +46,11 @@ std::int64_t UnitClock::stamp_ns(std::int64_t true_ns) const {
   if (held_by(true_ns) == UnitSync::kNone) return scaled(true_ns - switched_on_ns_, config_.drift_ppm);
   if (lost_at_ns_ && true_ns > *lost_at_ns_)
     return stamp_ns(*lost_at_ns_) + scaled(true_ns - *lost_at_ns_, config_.drift_ppm);
-  return true_ns + master_step_ns_ + second_error_ns_.value_or(0) + std::llround(servo_error_ns(true_ns));
+  return master_ns(true_ns) + second_error_ns_.value_or(0) + std::llround(servo_error_ns(true_ns));
 }
 
 std::int64_t UnitClock::offset_ns(std::int64_t true_ns) const {
-  return held_by(true_ns) == UnitSync::kNone ? 0 : stamp_ns(true_ns) - true_ns - master_step_ns_;
+  return held_by(true_ns) == UnitSync::kNone ? 0 : stamp_ns(true_ns) - master_ns(true_ns);
 }
 
 void UnitClock::restart(std::int64_t true_ns) {
@@ -61,8 +61,8 @@ void UnitClock::restart(std::int64_t true_ns) {
 
 void UnitClock::tell_second(std::int64_t true_ns, std::int64_t utc_ns) {
   if (config_.sync != UnitSync::kPulse) return;
-  const std::int64_t pulse_ns = true_ns - true_ns % kSecond_ns;
-  second_error_ns_ = utc_ns - pulse_ns;
+  const std::int64_t now_ns = master_ns(true_ns);
+  second_error_ns_ = utc_ns - (now_ns - now_ns % kSecond_ns);
 }
 
 }  // namespace edgesplat::virtual_device

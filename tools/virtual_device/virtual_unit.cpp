@@ -24,7 +24,7 @@ void VirtualUnit::power_cycle(std::int64_t now_ns, std::int64_t off_ns) {
 bool VirtualUnit::hear_second(std::int64_t now_ns, std::int64_t utc_ns, std::int64_t earliest_ns,
                               std::int64_t latest_ns) {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  const std::int64_t after_pulse_ns = now_ns % kSecond_ns;
+  const std::int64_t after_pulse_ns = clock_.master_ns(now_ns) % kSecond_ns;
   ++counters_.seconds_told;
   if (after_pulse_ns < earliest_ns || after_pulse_ns > latest_ns) {
     ++counters_.seconds_late;

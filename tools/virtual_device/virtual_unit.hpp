@@ -43,8 +43,8 @@ struct VirtualUnitCounters {
 };
 
 /// A virtual LiDAR without sockets: commands go in, answers and states come out, measurements get its stamps
-/// and its packets' form. Its protocol is written apart from the robot's driver. Times are true ns. Pure,
-/// single-owner.
+/// and its packets' form. Its protocol is written apart from the robot's driver. Times are true ns, of any
+/// epoch. Pure, single-owner.
 class VirtualUnit {
  public:
   /// A datagram that goes out of one of its ports.

@@ -3,6 +3,7 @@
 #include "robot/drivers/livox/data_watch.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace edgesplat::livox {
 namespace {
@@ -13,10 +14,9 @@ constexpr nanoseconds kSilentToo = DataWatch::kSilentAfter / 2;
 }  // namespace
 
 void DataWatch::expect(HostTime now, nanoseconds patience) {
-  expecting_ = true;
+  if (std::exchange(expecting_, true)) return;
   expected_since_ = now;
   grace_until_ = now + patience;
-  // While it is silent the moment it fell silent stays, for check_return().
   if (!points_) points_ = now;
   if (!imu_) imu_ = now;
 }

@@ -17,7 +17,7 @@ class DataWatch {
 
   explicit DataWatch(bool has_imu) : has_imu_(has_imu) {}
 
-  /// From now on data should come; the first of each channel may take `patience` (a motor speeds up).
+  /// From now on data should come; the very first of each channel may take `patience` (a motor speeds up).
   void expect(HostTime now, nanoseconds patience);
   void on_data(Channel channel, HostTime now);
   /// "points", "IMU" or "points and IMU" at the moment they are found silent; empty else.

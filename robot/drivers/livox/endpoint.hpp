@@ -8,6 +8,12 @@
 
 namespace edgesplat::livox {
 
+/// Which of Livox' two protocols a LiDAR speaks.
+enum class Protocol : std::uint8_t {
+  kSdk1,  ///< Avia, Horizon, Mid-40, Mid-70, Tele-15
+  kSdk2,  ///< Mid-360, HAP
+};
+
 /// What a UDP socket of the host is for.
 enum class Channel : std::uint8_t {
   kPoints,

@@ -9,6 +9,7 @@ namespace edgesplat::livox {
 namespace {
 
 constexpr std::size_t kForeignRemembered = 16;
+constexpr nanoseconds kLongestPause = std::chrono::milliseconds(100);  // data that come move deadlines
 constexpr nanoseconds kNobodyAfter = std::chrono::seconds(5);
 constexpr nanoseconds kFirstDataPatience = std::chrono::seconds(2);
 
@@ -57,7 +58,8 @@ HostTime LidarSession::step(HostTime now) {
     ++counters_.utc_told;
   }
   const HostTime next = std::min(step_protocol(now), watch_.next_check());
-  return feeds ? std::min(next, utc_feed_.next_due()) : next;
+  const HostTime deadline = feeds ? std::min(next, utc_feed_.next_due()) : next;
+  return std::min(deadline, now + kLongestPause);
 }
 
 void LidarSession::send(const Endpoint& to, std::vector<std::byte> bytes) {

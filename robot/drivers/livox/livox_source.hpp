@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/sensor/measurement.hpp"
+#include "robot/drivers/livox/endpoint.hpp"
 #include "robot/drivers/livox/livox_packet.hpp"
 #include "robot/drivers/livox/sdk1_packet.hpp"
 #include "robot/drivers/livox/stream_monitor.hpp"
@@ -13,12 +14,6 @@
 #include <span>
 
 namespace edgesplat::livox {
-
-/// Which of Livox' two protocols a LiDAR speaks.
-enum class Protocol : std::uint8_t {
-  kSdk1,  ///< Avia, Horizon, Mid-40, Mid-70, Tele-15
-  kSdk2,  ///< Mid-360, HAP
-};
 
 /// Everything the source saw; nothing is lost without being counted here.
 struct LivoxCounters {
@@ -48,6 +43,10 @@ class LivoxSource {
   [[nodiscard]] std::optional<sensor::Measurement> on_imu(std::span<const std::byte> datagram,
                                                           HostTime arrival);
   [[nodiscard]] LivoxCounters counters() const;
+  /// How often the clock of one channel got another source or started anew; cheap.
+  [[nodiscard]] std::uint64_t clock_changes(Channel channel) const {
+    return (channel == Channel::kImu ? imu_ : points_).counters().clock_changes;
+  }
   /// What disciplines the LiDAR's clock, by its newest packet.
   [[nodiscard]] sensor::StampSource stamp_source() const { return stamp_source_; }
 

@@ -45,7 +45,7 @@ class Sdk1Session final : public LidarSession {
   [[nodiscard]] bool in_session() const { return phase_ >= Phase::kSettings; }
 
   Phase phase_ = Phase::kSearching;
-  PendingRequest pending_{std::chrono::milliseconds(500), 3};
+  PendingRequest pending_{std::chrono::milliseconds(500), 5};
   std::uint16_t sequence_ = 0;
   std::size_t setting_ = 0;    ///< kSettings: which is under way
   HostTime next_search_{};     ///< kSearching, where the address is known

@@ -47,7 +47,24 @@ KernelNotes read_notes(msghdr& header) {
 }
 
 std::string channel_name(Channel channel) {
-  return channel == Channel::kPoints ? "LiDAR point" : "LiDAR IMU";
+  switch (channel) {
+    case Channel::kPoints:
+      return "LiDAR point";
+    case Channel::kImu:
+      return "LiDAR IMU";
+    case Channel::kControl:
+      return "LiDAR command";
+    case Channel::kPush:
+      return "LiDAR state";
+  }
+  return "LiDAR";
+}
+
+Endpoint endpoint_of(const sockaddr_in& address) {
+  Endpoint endpoint;
+  std::memcpy(endpoint.ip.data(), &address.sin_addr, endpoint.ip.size());
+  endpoint.port = ntohs(address.sin_port);
+  return endpoint;
 }
 
 Error port_error(Channel channel, in_addr address, std::uint16_t port, int error) {
@@ -70,11 +87,13 @@ Error port_error(Channel channel, in_addr address, std::uint16_t port, int error
 
 }  // namespace
 
-Status UdpChannel::open(in_addr address, std::uint16_t port, int receive_buffer_bytes) {
+Status UdpChannel::open(in_addr address, std::uint16_t port, int receive_buffer_bytes, bool is_shared) {
   socket_.reset(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket_.valid()) return tl::unexpected(port_error(channel_, address, port, errno));
   (void)::setsockopt(fd(), SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes, sizeof(receive_buffer_bytes));
   const int on = 1;
+  if (is_shared) (void)::setsockopt(fd(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
+  if (channel_ == Channel::kControl) (void)::setsockopt(fd(), SOL_SOCKET, SO_BROADCAST, &on, sizeof(on));
   (void)::setsockopt(fd(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof(on));
   (void)::setsockopt(fd(), SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof(on));
   sockaddr_in local{};
@@ -128,10 +147,37 @@ Result<std::span<const Datagram>> UdpChannel::receive(const Clock& clock, Transp
     const std::int64_t age_ns = notes.wall_ns == 0 ? 0 : wall_now_ns - notes.wall_ns;
     const bool believable = age_ns >= 0 && age_ns <= kOldest_ns;
     datagrams_[count++] = {channel_, now - nanoseconds(believable ? age_ns : 0),
-                           std::span<const std::byte>(slots_[i].bytes).first(headers_[i].msg_len)};
+                           std::span<const std::byte>(slots_[i].bytes).first(headers_[i].msg_len),
+                           endpoint_of(slots_[i].sender)};
     ++counters.datagrams;
   }
   return std::span<const Datagram>(datagrams_).first(count);
+}
+
+bool UdpChannel::send(const Endpoint& to, in_addr source, std::span<const std::byte> bytes) const {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(to.port);
+  std::memcpy(&address.sin_addr, to.ip.data(), to.ip.size());
+  iovec content{const_cast<std::byte*>(bytes.data()), bytes.size()};
+  alignas(cmsghdr) std::array<std::byte, CMSG_SPACE(sizeof(in_pktinfo))> control{};
+  msghdr header{};
+  header.msg_name = &address;
+  header.msg_namelen = sizeof(address);
+  header.msg_iov = &content;
+  header.msg_iovlen = 1;
+  if (source.s_addr != INADDR_ANY) {
+    header.msg_control = control.data();
+    header.msg_controllen = control.size();
+    cmsghdr* note = CMSG_FIRSTHDR(&header);
+    note->cmsg_level = IPPROTO_IP;
+    note->cmsg_type = IP_PKTINFO;
+    note->cmsg_len = CMSG_LEN(sizeof(in_pktinfo));
+    in_pktinfo info{};
+    info.ipi_spec_dst = source;
+    std::memcpy(CMSG_DATA(note), &info, sizeof(info));
+  }
+  return ::sendmsg(fd(), &header, MSG_NOSIGNAL | MSG_DONTWAIT) == static_cast<ssize_t>(bytes.size());
 }
 
 void UdpChannel::note_drops(std::uint32_t total, TransportCounters& counters) {

@@ -28,9 +28,15 @@ class UdpChannel {
   UdpChannel(const UdpChannel&) = delete;
   UdpChannel& operator=(const UdpChannel&) = delete;
 
-  [[nodiscard]] Status open(in_addr address, std::uint16_t port, int receive_buffer_bytes);
+  /// `is_shared`: other programs may listen at this port too (broadcasts reach all of them).
+  [[nodiscard]] Status open(in_addr address, std::uint16_t port, int receive_buffer_bytes,
+                            bool is_shared = false);
   /// What waits in the kernel, without blocking; valid until the next call.
   [[nodiscard]] Result<std::span<const Datagram>> receive(const Clock& clock, TransportCounters& counters);
+
+  /// Sends from `source`, one of this machine's addresses (0.0.0.0: as the route says); false where the
+  /// system refused.
+  [[nodiscard]] bool send(const Endpoint& to, in_addr source, std::span<const std::byte> bytes) const;
 
   [[nodiscard]] int fd() const { return socket_.get(); }
   [[nodiscard]] std::uint16_t port() const { return port_; }

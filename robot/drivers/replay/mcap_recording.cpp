@@ -23,7 +23,8 @@ constexpr std::int64_t kLatest_ns = std::int64_t{1} << 62U;  // sums and differe
 
 class McapRecording final : public ReplaySource::Reader {
  public:
-  McapRecording(io::McapReader reader, sensor::Rig rig) : reader_(std::move(reader)), rig_(std::move(rig)) {}
+  McapRecording(io::McapReader reader, sensor::Rig rig, livox::Protocol protocol)
+      : reader_(std::move(reader)), rig_(std::move(rig)), livox_(protocol) {}
 
   [[nodiscard]] const sensor::Rig& rig() const override { return rig_; }
   [[nodiscard]] nanoseconds duration() const override {
@@ -143,6 +144,14 @@ ReplayReport McapRecording::report() const {
   return report;
 }
 
+livox::Protocol protocol_of(const io::McapReader& reader) {
+  const io::McapChannel* channel = reader.find_channel(io::kLidarPointsTopic);
+  if (channel == nullptr) return livox::Protocol::kSdk2;
+  const auto named = channel->metadata.find(std::string(io::kProtocolKey));
+  const bool is_sdk1 = named != channel->metadata.end() && named->second == io::kLivoxSdk1;
+  return is_sdk1 ? livox::Protocol::kSdk1 : livox::Protocol::kSdk2;
+}
+
 std::string list_topics(const io::McapReader& reader) {
   std::string text;
   for (const auto& [id, channel] : reader.channels()) text += (text.empty() ? "" : ", ") + channel.topic;
@@ -172,8 +181,9 @@ Result<std::unique_ptr<ReplaySource::Reader>> open_mcap_recording(const std::fil
   io::McapSelection selection;
   for (const std::string_view topic : kTopics) selection.topics.emplace_back(topic);
   reader.select(std::move(selection));
+  const livox::Protocol protocol = protocol_of(reader);
   return std::unique_ptr<ReplaySource::Reader>(
-      std::make_unique<McapRecording>(std::move(reader), std::move(rig)));
+      std::make_unique<McapRecording>(std::move(reader), std::move(rig), protocol));
 }
 
 }  // namespace edgesplat::replay

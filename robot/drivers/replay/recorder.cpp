@@ -5,7 +5,9 @@
 #include "common/base/bytes.hpp"
 #include "common/io/recording_topics.hpp"
 #include "common/io/ros_messages.hpp"
+#include "robot/drivers/livox/sdk1_packet.hpp"
 
+#include <map>
 #include <utility>
 
 namespace edgesplat::replay {
@@ -15,8 +17,12 @@ std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
-/// The stamp field of a Livox data packet; 0 where the datagram is too short to have one.
-SensorTime stamp_of(std::span<const std::byte> datagram) {
+/// The stamp of a Livox data packet; 0 where the datagram has none.
+SensorTime stamp_of(std::span<const std::byte> datagram, livox::Protocol protocol) {
+  if (protocol == livox::Protocol::kSdk1) {
+    const auto packet = livox::decode_sdk1_packet(datagram);
+    return packet ? packet->stamp : SensorTime{};
+  }
   constexpr std::size_t kStampAt = 28;
   ByteReader reader(datagram);
   reader.skip(kStampAt);
@@ -43,7 +49,8 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::filesystem::path& 
 }
 
 Recorder::Recorder(io::McapWriter writer, const RecorderConfig& config)
-    : writer_(std::move(writer)),
+    : config_(config),
+      writer_(std::move(writer)),
       queue_({config.queue_items, config.queue_bytes}, thread::Overflow::kDropNewest) {}
 
 Status Recorder::add_channels() {
@@ -55,12 +62,18 @@ Status Recorder::add_channels() {
   const std::array<Entry, kTopicCount> entries{
       Entry{kPoints, io::kLidarPointsTopic, &io::kRawDatagramSchema},
       Entry{kImu, io::kLidarImuTopic, &io::kRawDatagramSchema},
+      Entry{kControl, io::kLidarControlTopic, &io::kRawDatagramSchema},
       Entry{kMeta, io::kCameraMetaTopic, &io::kFrameMetaSchema},
       Entry{kImage, io::kCameraImageTopic, &io::kCompressedImageSchema}};
+  const std::string_view protocol =
+      config_.lidar_protocol == livox::Protocol::kSdk1 ? io::kLivoxSdk1 : io::kLivoxSdk2;
   for (const Entry& entry : entries) {
     EDGESPLAT_TRY(const io::McapSchemaId schema,
                   writer_.add_schema(entry.schema->name, io::kRosSchemaEncoding, entry.schema->text));
-    EDGESPLAT_TRY(channels_.at(entry.topic), writer_.add_channel(entry.name, schema));
+    std::map<std::string, std::string> metadata;
+    if (entry.schema == &io::kRawDatagramSchema) metadata.emplace(io::kProtocolKey, protocol);
+    EDGESPLAT_TRY(channels_.at(entry.topic),
+                  writer_.add_channel(entry.name, schema, "cdr", std::move(metadata)));
   }
   return {};
 }
@@ -101,9 +114,11 @@ Status Recorder::write(const Item& item) {
 }
 
 Status Recorder::write(const QueuedDatagram& datagram) {
-  const Topic topic = datagram.channel == livox::Channel::kImu ? kImu : kPoints;
-  return write(topic, datagram.arrival, stamp_of(datagram.bytes),
-               io::encode(io::RawDatagram{datagram.bytes}));
+  const bool is_data =
+      datagram.channel == livox::Channel::kPoints || datagram.channel == livox::Channel::kImu;
+  const Topic topic = !is_data ? kControl : (datagram.channel == livox::Channel::kImu ? kImu : kPoints);
+  const SensorTime stamp = is_data ? stamp_of(datagram.bytes, config_.lidar_protocol) : SensorTime{};
+  return write(topic, datagram.arrival, stamp, io::encode(io::RawDatagram{datagram.bytes}));
 }
 
 Status Recorder::write(const QueuedFrame& queued) {

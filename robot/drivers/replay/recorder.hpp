@@ -24,8 +24,9 @@
 namespace edgesplat::replay {
 
 struct RecorderConfig {
-  std::size_t queue_items = 16'384;                  ///< 6 s of a Mid-360
-  std::size_t queue_bytes = std::size_t{96} << 20U;  ///< what waits for the disk at most
+  std::size_t queue_items = 16'384;                         ///< 6 s of a Mid-360
+  std::size_t queue_bytes = std::size_t{96} << 20U;         ///< what waits for the disk at most
+  livox::Protocol lidar_protocol = livox::Protocol::kSdk2;  ///< of the datagrams; noted in the file
 };
 
 struct RecorderCounters {
@@ -65,7 +66,7 @@ class Recorder {
     frame_socket::EncodedFrame frame;
   };
   using Item = std::variant<QueuedDatagram, QueuedFrame>;
-  enum Topic : std::uint8_t { kPoints, kImu, kMeta, kImage, kTopicCount };
+  enum Topic : std::uint8_t { kPoints, kImu, kControl, kMeta, kImage, kTopicCount };
 
   Recorder(io::McapWriter writer, const RecorderConfig& config);
   [[nodiscard]] Status add_channels();
@@ -75,6 +76,7 @@ class Recorder {
   [[nodiscard]] Status write(Topic topic, HostTime arrival, SensorTime stamp,
                              std::span<const std::byte> payload);
 
+  RecorderConfig config_;
   io::McapWriter writer_;
   thread::BoundedQueue<Item> queue_;
   std::array<io::McapChannelId, kTopicCount> channels_{};

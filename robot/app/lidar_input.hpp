@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+#include "common/metrics/registry.hpp"
+#include "common/sensor/rig.hpp"
+#include "common/time/clock.hpp"
+#include "robot/config/robot_config.hpp"
+#include "robot/drivers/livox/lidar_driver.hpp"
+#include "robot/drivers/replay/recorder.hpp"
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+
+namespace edgesplat::app {
+
+/// The robot's LiDAR with its IMU: one line in the log for each event, everything counted. Owned by one
+/// thread.
+class LidarInput {
+ public:
+  using Sink = std::function<void(sensor::Measurement)>;
+
+  /// Opens the sockets. Errors: those of livox::LidarDriver::open.
+  static Result<std::unique_ptr<LidarInput>> open(const robot_config::LivoxSettings& settings,
+                                                  const sensor::Rig& rig, const Clock& clock, Sink sink,
+                                                  replay::Recorder* recorder);
+  /// Receives until `stop` is requested.
+  void run(const std::stop_token& stop);
+  /// Packets received, lost, refused, and the events; call after run().
+  void publish_counters(metrics::Registry& metrics) const;
+
+ private:
+  explicit LidarInput(std::unique_ptr<livox::LidarDriver> driver) : driver_(std::move(driver)) {}
+  std::unique_ptr<livox::LidarDriver> driver_;
+};
+
+}  // namespace edgesplat::app

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/result.hpp"
+#include "common/time/clock.hpp"
+#include "robot/drivers/livox/lidar_session.hpp"
+#include "robot/drivers/livox/livox_source.hpp"
+#include "robot/drivers/livox/livox_transport.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+namespace edgesplat::livox {
+
+/// Which LiDAR, and how far the robot goes with it.
+enum class LidarChoice : std::uint8_t {
+  kListen,  ///< takes what comes (SDK2), commands nothing
+  kMid360,
+  kAvia,
+};
+
+struct LidarDriverConfig {
+  LidarChoice choice = LidarChoice::kListen;
+  LivoxTransportConfig transport;  ///< its `control` follows `choice`
+  std::string serial_number;       ///< the unit to use; empty: the first that answers
+  bool has_imu = true;
+  ReturnMode return_mode = ReturnMode::kFirst;  ///< kAvia
+  bool feeds_utc =
+      false;  ///< on a pulse-per-second line at whole seconds: told UTC from this machine's clock
+};
+
+/// One LiDAR with everything it needs: sockets, session, packets to measurements. Thread-bound: one thread
+/// calls step() again and again.
+class LidarDriver {
+ public:
+  /// Who gets what; called from step().
+  struct Outputs {
+    std::function<void(sensor::Measurement)> measurement;
+    std::function<void(const LidarEvent&)> event;
+    std::function<void(const Datagram&)> datagram;  ///< as it came, for a recorder; may be empty
+  };
+
+  /// Errors: those of LivoxTransport::open. `clock` must outlive the driver.
+  static Result<std::unique_ptr<LidarDriver>> open(const LidarDriverConfig& config, const Clock& clock,
+                                                   Outputs outputs);
+
+  /// Waits for datagrams, at most half a second, and handles what came and what is due. kIo.
+  [[nodiscard]] Status step(const std::stop_token& stop);
+  /// Lets the LiDAR go, where its protocol knows that.
+  void stop();
+
+  [[nodiscard]] const LivoxTransport& transport() const { return transport_; }
+  [[nodiscard]] LivoxCounters source_counters() const { return source_.counters(); }
+  /// Of a LiDAR that is only listened to: zeros.
+  [[nodiscard]] LidarSessionCounters session_counters() const;
+  [[nodiscard]] LidarHealth health() const { return session_ ? session_->health() : LidarHealth(); }
+  /// Data from other senders than the LiDAR: not used.
+  [[nodiscard]] std::uint64_t foreign_data() const { return foreign_data_; }
+  [[nodiscard]] static Protocol protocol_of(LidarChoice choice) {
+    return choice == LidarChoice::kAvia ? Protocol::kSdk1 : Protocol::kSdk2;
+  }
+
+ private:
+  LidarDriver(const LidarDriverConfig& config, LivoxTransport transport, const Clock& clock, Outputs outputs);
+  void handle(const Datagram& datagram, HostTime now);
+  void watch_clock();
+  void flush_session();
+
+  const Clock& clock_;
+  Outputs outputs_;
+  LivoxTransport transport_;
+  LivoxSource source_;
+  std::unique_ptr<LidarSession> session_;  ///< empty: kListen
+  HostTime next_step_{};
+  bool step_is_due_ = true;
+  std::uint64_t clock_changes_ = 0;
+  std::uint64_t clock_restarts_ = 0;
+  std::uint64_t foreign_data_ = 0;
+};
+
+}  // namespace edgesplat::livox
