@@ -191,7 +191,8 @@ void Optimiser::move_rows(const splat::View& view, const train::BlendGradients& 
   const float half_width_px = 0.5F * static_cast<float>(view.width_px);
   std::vector<double> losses(train::gradient_blocks(gradients.by_row.size()), 0.0);
   report.by_pose = train::gaussian_backward_in_blocks(
-      splat::spans_of(cloud_), view, gradients.by_row, [&](const train::GradientBlock& block) {
+      splat::spans_of(cloud_), view, options_.render, gradients.by_row,
+      [&](const train::GradientBlock& block) {
         losses[block.number] = regularise(block, gradients.seen);
         adam_.step(block.rows, block.values, options_.rates, cloud_);
         for (std::size_t i = 0; i < block.rows.size(); ++i) {

@@ -62,11 +62,13 @@ HWY_INLINE void load_lanes(const GaussianSpans& g, std::size_t first, std::size_
 }
 
 /// The shared maths inlined to the last call: only then do its loops become vector operations.
+template <bool kFisheye>
 [[gnu::flatten]] void project_lanes(const ProjectTask& task, SplatLanes& lanes) {
   const CameraT<float> camera = task.camera;  // a copy: else the compiler fears that the lanes overlap it
   const float near_m = task.near_m, low_pass = task.low_pass_px2, width = task.width_px,
               height = task.height_px;
-  for (int i = 0; i < SplatLanes::kLanes; ++i) lanes.project_one(camera, near_m, low_pass, width, height, i);
+  for (int i = 0; i < SplatLanes::kLanes; ++i)
+    lanes.project_one<kFisheye>(camera, near_m, low_pass, width, height, i);
 }
 
 /// 0.5 + SH towards the camera; `sh` is [terms,3].
@@ -118,7 +120,11 @@ void project_block(const ProjectTask& task, ProjectBlock& block) {
   for (std::size_t first = block.first; first < block.last; first += kLanes) {
     const std::size_t count = std::min(kLanes, block.last - first);
     load_lanes(task.gaussians, first, count, lanes);
-    project_lanes(task, lanes);
+    if (task.camera.fisheye) {
+      project_lanes<true>(task, lanes);
+    } else {
+      project_lanes<false>(task, lanes);
+    }
     for (std::size_t i = 0; i < count; ++i) {
       if (lanes.finite[i] == 0.0F) ++block.not_finite;
       if (lanes.visible[i] == 0.0F) continue;
@@ -158,7 +164,7 @@ void project_cpu(const GaussianSpans& gaussians, const View& view, const RenderO
                  ProjectScratch& scratch, Projected& out) {
   const std::size_t count = gaussians.size();
   const ProjectTask task{gaussians,
-                         camera_of(view),
+                         camera_of(view, options),
                          view.position,
                          options.near_m,
                          options.low_pass_px2,

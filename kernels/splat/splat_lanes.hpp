@@ -23,6 +23,7 @@ struct SplatLanes {
   Lane visible;  ///< 1 where the picture shows something of it, else 0
 
   /// `width` and `height` of the picture.
+  template <bool kFisheye>
   EDGESPLAT_INLINE void project_one(const CameraT<float>& camera, float near_m, float low_pass, float width,
                                     float height, int i) {
     constexpr float kLog2e = 1.44269504F;
@@ -44,23 +45,29 @@ struct SplatLanes {
     float cov3d[6];
     covariance3d_of_scale(q, scale, cov3d);
     Projection<float> p;
-    const bool in_front = project(camera, m, cov3d, near_m, low_pass, p);
+    bool in_front = false;
+    if constexpr (kFisheye) {
+      in_front = project_fisheye(camera, m, cov3d, near_m, low_pass, p);
+    } else {
+      in_front = project(camera, m, cov3d, near_m, low_pass, p);
+    }
+    const float faint = of_one * p.shrink;
     // alpha >= 1/255 only where the Mahalanobis distance squared is under 2 ln(255 opacity): the box around
     // that ellipse.
-    const float reach = 2.0F * log_fast(std::max(of_one, kMinAlpha) / kMinAlpha);
+    const float reach = 2.0F * log_fast(std::max(faint, kMinAlpha) / kMinAlpha);
     const float wide = std::sqrt(reach * p.cov[0]), high = std::sqrt(reach * p.cov[2]);
     const float conic_apart =
         (p.conic[0] - p.conic[0]) + (p.conic[1] - p.conic[1]) + (p.conic[2] - p.conic[2]);
     const int inside = (p.u + wide > -0.5F ? 1 : 0) & (p.u - wide < width - 0.5F ? 1 : 0) &
                        (p.v + high > -0.5F ? 1 : 0) & (p.v - high < height - 0.5F ? 1 : 0);
     const int drawn = inside & (in_front ? 1 : 0) & (all_finite ? 1 : 0) & (conic_apart == 0.0F ? 1 : 0) &
-                      (of_one >= kMinAlpha ? 1 : 0);
+                      (faint >= kMinAlpha ? 1 : 0);
     u[i] = p.u;
     v[i] = p.v;
     EDGESPLAT_UNROLL
     for (int k = 0; k < 3; ++k) conic[k][i] = p.conic[k];
-    opacity[i] = of_one;
-    depth[i] = p.p[2];
+    opacity[i] = faint;
+    depth[i] = p.depth;
     half_width[i] = wide;
     half_height[i] = high;
     reach2[i] = reach;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kernels/splat/fisheye_math.hpp"
 #include "kernels/splat/project.hpp"
-#include "kernels/splat/project_math.hpp"
 #include "kernels/splat/sh_math.hpp"
 
 namespace edgesplat::splat {
@@ -22,8 +22,10 @@ struct SplatInput {
   int sh_degree;
 };
 
-inline CameraT<float> camera_of(const View& view) {
+inline CameraT<float> camera_of(const View& view, const RenderOptions& options) {
   CameraT<float> camera{};
+  camera.fisheye = view.fisheye;
+  camera.antialias = options.antialiased ? 1.0F : 0.0F;
   camera.fx = view.fx_px;
   camera.fy = view.fy_px;
   camera.cx = view.cx_px;
@@ -68,7 +70,9 @@ EDGESPLAT_HOST_DEVICE inline bool shape_of(const SplatInput& in, const CameraT<f
   float cov3d[6];
   covariance3d(in.quat, in.log_scale, cov3d);
   Projection<float> p;
-  if (!project(camera, in.mean, cov3d, near_m, low_pass, p)) return false;
+  if (!project_any(camera, in.mean, cov3d, near_m, low_pass, p)) return false;
+  out.opacity *= p.shrink;
+  if (!(out.opacity >= kMinAlpha)) return false;
   // alpha >= 1/255 only where the Mahalanobis distance squared is under 2 ln(255 opacity): the box around
   // that ellipse.
   out.reach2 = 2.0F * std::log(out.opacity / kMinAlpha);
@@ -80,7 +84,7 @@ EDGESPLAT_HOST_DEVICE inline bool shape_of(const SplatInput& in, const CameraT<f
   out.u_px = p.u;
   out.v_px = p.v;
   for (int i = 0; i < 3; ++i) out.conic[i] = p.conic[i];
-  out.depth_m = p.p[2];
+  out.depth_m = p.depth;
   return true;
 }
 

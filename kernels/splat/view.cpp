@@ -8,14 +8,13 @@ Result<View> View::from(const geometry::CameraModel& camera,
                         const geometry::RigidTransform& camera_from_map) {
   if (const Status valid = camera.validate(); !valid)
     return fail(Errc::kInvalidArgument, valid.error().context);
-  if (camera.kind != geometry::CameraKind::kPinhole || camera.distortion != decltype(camera.distortion){}) {
-    return fail(Errc::kInvalidArgument,
-                "the renderer draws pinhole pictures without distortion: undistort first");
-  }
+  if (camera.distortion != decltype(camera.distortion){})
+    return fail(Errc::kInvalidArgument, "the renderer draws pictures without distortion: undistort first");
   if (!camera_from_map.is_finite()) return fail(Errc::kInvalidArgument, "the camera's pose is not finite");
   View view;
   view.width_px = camera.width_px;
   view.height_px = camera.height_px;
+  view.fisheye = camera.kind == geometry::CameraKind::kFisheye;
   view.fx_px = static_cast<float>(camera.fx_px);
   view.fy_px = static_cast<float>(camera.fy_px);
   view.cx_px = static_cast<float>(camera.cx_px);

@@ -98,7 +98,7 @@ __global__ void project_kernel(FrameOnDevice frame) {
 
 DeviceView device_view(const View& view, const RenderOptions& options) {
   DeviceView out{};
-  out.camera = camera_of(view);
+  out.camera = camera_of(view, options);
   for (std::size_t i = 0; i < 3; ++i) {
     out.position_m[i] = view.position[i];
     out.background[i] = options.background[i];

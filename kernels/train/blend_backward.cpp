@@ -256,7 +256,7 @@ HWY_INLINE void finish(const splat::Splat& s, std::span<const TileSums> parts, S
   out.by_conic[0] = -0.5F * m[kGxx];
   out.by_conic[1] = -m[kGxy];
   out.by_conic[2] = -0.5F * m[kGyy];
-  out.by_opacity_logit = m[kG] * (1.0F - s.opacity);
+  out.by_log_opacity = m[kG];
   for (int c = 0; c < 3; ++c) {
     out.by_rgb[c] = s.rgb[c] > 0.0F ? m[kRed + c] : 0.0F;
     out.conic[c] = s.conic[c];

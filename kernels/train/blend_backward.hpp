@@ -28,9 +28,9 @@ struct PictureGradients {
 /// What one picture says about one splat: dL by what the blend read of it, and what the way back to its
 /// Gaussian needs.
 struct alignas(64) SplatBackward {
-  float by_u, by_v;   ///< per px
-  float by_conic[3];  ///< xx, xy counted once, yy
-  float by_opacity_logit;
+  float by_u, by_v;        ///< per px
+  float by_conic[3];       ///< xx, xy counted once, yy
+  float by_log_opacity;    ///< of the opacity as drawn
   float by_rgb[3];         ///< 0 where the colour was cut at 0
   float by_depth;          ///< per m
   float conic[3];          ///< as drawn

@@ -27,6 +27,7 @@ namespace edgesplat::train {
 struct ReverseSource {
   const splat::GaussianSpans& gaussians;
   splat::CameraT<float> camera;
+  float low_pass_px2;
   std::array<float, 3> position_m;  ///< of the camera, in map
 };
 
@@ -61,6 +62,8 @@ HWY_INLINE void load_lane(const splat::GaussianSpans& g, const SplatBackward& by
   lanes.by_u[lane] = by.by_u;
   lanes.by_v[lane] = by.by_v;
   lanes.by_depth[lane] = by.by_depth;
+  lanes.by_log_opacity[lane] = by.by_log_opacity;
+  lanes.opacity_logit[lane] = g.opacity_logits[row];
 }
 
 /// dL by the SH coefficients of one Gaussian, from those by its colour, and by each term of the basis: what
@@ -149,7 +152,7 @@ HWY_INLINE void store_lane(const ReverseSource& source, const SplatBackward& by,
     out[ParameterRow::kLogScale + k] = lanes.by_log_scale[k][lane];
   }
   for (std::size_t k = 0; k < 4; ++k) out[ParameterRow::kQuat + k] = lanes.by_quat[k][lane];
-  out[ParameterRow::kOpacity] = by.by_opacity_logit;
+  out[ParameterRow::kOpacity] = lanes.by_opacity_logit[lane];
   float by_pose[6];
   for (std::size_t k = 0; k < 6; ++k) by_pose[k] = lanes.pose[k][lane];
   reverse_colour(source, by, out, by_pose);
@@ -165,8 +168,9 @@ HWY_INLINE void store_lane(const ReverseSource& source, const SplatBackward& by,
 }
 
 /// The shared maths inlined to the last call: only then do its loops become vector operations.
-[[gnu::flatten]] void reverse_lanes(const splat::CameraT<float>& camera, GaussianLanes& lanes) {
-  reverse_lanes_inline(camera, lanes);
+template <bool kFisheye>
+[[gnu::flatten]] void reverse_lanes(const ReverseSource& source, GaussianLanes& lanes) {
+  reverse_lanes_inline<kFisheye>(source.camera, source.low_pass_px2, lanes);
 }
 
 /// `splats` is the block's share of all of them.
@@ -183,7 +187,11 @@ void reverse_rows(const ReverseSource& source, std::span<const SplatBackward> sp
   for (std::size_t first = 0; first < out.count; first += kLanes) {
     const std::size_t count = std::min(kLanes, out.count - first);
     for (std::size_t i = 0; i < count; ++i) load_lane(source.gaussians, *seen[first + i], i, lanes);
-    reverse_lanes(source.camera, lanes);
+    if (source.camera.fisheye) {
+      reverse_lanes<true>(source, lanes);
+    } else {
+      reverse_lanes<false>(source, lanes);
+    }
     for (std::size_t i = 0; i < count; ++i) {
       const SplatBackward& by = *seen[first + i];
       store_lane(source, by, lanes, i, &out.values[(first + i) * stride], pose);
@@ -205,11 +213,12 @@ HWY_EXPORT(reverse_rows);
 }  // namespace
 
 PoseGradient gaussian_backward_in_blocks(const splat::GaussianSpans& gaussians, const splat::View& view,
+                                         const splat::RenderOptions& options,
                                          std::span<const SplatBackward> by_row, const BlockTaker& take) {
   EDGESPLAT_CHECK(gaussians.consistent(), "Gaussian arrays of one length");
   const std::size_t stride = ParameterRow::stride(gaussians.sh_degree);
   std::vector<PoseGradient> poses(gradient_blocks(by_row.size()), PoseGradient{});
-  const ReverseSource source{gaussians, splat::camera_of(view), view.position};
+  const ReverseSource source{gaussians, splat::camera_of(view, options), options.low_pass_px2, view.position};
   thread::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t b) {
     thread_local BlockMemory memory;
     const std::size_t first = b * kGradientBlock;
@@ -226,15 +235,17 @@ PoseGradient gaussian_backward_in_blocks(const splat::GaussianSpans& gaussians, 
 }
 
 GaussianGradients gaussian_backward(const splat::GaussianSpans& gaussians, const splat::View& view,
+                                    const splat::RenderOptions& options,
                                     std::span<const SplatBackward> by_row) {
   std::vector<GaussianGradients> parts(gradient_blocks(by_row.size()));
   GaussianGradients out;
-  out.pose = gaussian_backward_in_blocks(gaussians, view, by_row, [&parts](const GradientBlock& block) {
-    GaussianGradients& part = parts[block.number];
-    part.rows.assign(block.rows.begin(), block.rows.end());
-    part.values.assign(block.values.begin(), block.values.end());
-    part.sightings.assign(block.sightings.begin(), block.sightings.end());
-  });
+  out.pose =
+      gaussian_backward_in_blocks(gaussians, view, options, by_row, [&parts](const GradientBlock& block) {
+        GaussianGradients& part = parts[block.number];
+        part.rows.assign(block.rows.begin(), block.rows.end());
+        part.values.assign(block.values.begin(), block.values.end());
+        part.sightings.assign(block.sightings.begin(), block.sightings.end());
+      });
   out.stride = ParameterRow::stride(gaussians.sh_degree);
   for (const GaussianGradients& part : parts) {
     out.rows.insert(out.rows.end(), part.rows.begin(), part.rows.end());

@@ -42,12 +42,13 @@ inline constexpr std::size_t kGradientBlock = 256;
   return (splats + kGradientBlock - 1) / kGradientBlock;
 }
 
-/// Reverse of splat::project: from gradients by the splats (in the order of rows, as blend_backward gives
-/// them) to those by the Gaussians, block by block while they are in the cache. Only splats that some pixel
-/// shows: those hidden behind others have no gradient, and stay as they are. A taker may move the Gaussians
-/// of its block. A Gaussian whose gradient is not finite gets zeros. Deterministic whatever the number of
-/// threads.
+/// Reverse of splat::project with the same view and options: from gradients by the splats (in the order of
+/// rows, as blend_backward gives them) to those by the Gaussians, block by block while they are in the cache.
+/// Only splats that some pixel shows: those hidden behind others have no gradient, and stay as they are. A
+/// taker may move the Gaussians of its block. A Gaussian whose gradient is not finite gets zeros.
+/// Deterministic whatever the number of threads.
 PoseGradient gaussian_backward_in_blocks(const splat::GaussianSpans& gaussians, const splat::View& view,
+                                         const splat::RenderOptions& options,
                                          std::span<const SplatBackward> by_row, const BlockTaker& take);
 
 /// All blocks in one piece.
@@ -64,6 +65,7 @@ struct GaussianGradients {
 };
 [[nodiscard]] GaussianGradients gaussian_backward(const splat::GaussianSpans& gaussians,
                                                   const splat::View& view,
+                                                  const splat::RenderOptions& options,
                                                   std::span<const SplatBackward> by_row);
 
 }  // namespace edgesplat::train

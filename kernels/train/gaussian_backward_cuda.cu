@@ -29,7 +29,7 @@ __global__ void __launch_bounds__(kThreads) gaussian_backward_kernel(ReverseOnDe
       const splat::SplatInput in{cloud.means_m + 3 * row,    cloud.log_scales + 3 * row,
                                  cloud.quats_xyzw + 4 * row, cloud.opacity_logits[row],
                                  cloud.sh + sh_floats * row, cloud.sh_degree};
-      gaussian_backward_one(in, frame.view.camera, frame.view.position_m, s, by,
+      gaussian_backward_one(in, frame.view.camera, frame.view.position_m, s, by, frame.view.low_pass_px2,
                             reverse.rows + j * reverse.stride, pose);
       sighting = {std::sqrt(by.u * by.u + by.v * by.v), sums[kSumWeight],
                   s.half_width_px > s.half_height_px ? s.half_width_px : s.half_height_px};

@@ -19,17 +19,20 @@ namespace edgesplat::train {
 EDGESPLAT_HOST_DEVICE inline bool gaussian_backward_one(const splat::SplatInput& in,
                                                         const splat::CameraT<float>& camera,
                                                         const float* camera_position, const splat::Splat& s,
-                                                        const SplatGradient<float>& by, float* row,
-                                                        float* pose) {
+                                                        const SplatGradient<float>& by_splat, float low_pass,
+                                                        float* row, float* pose) {
+  SplatGradient<float> by = by_splat;
+  by.log_opacity = by.opacity * s.opacity;
   const float scale[3] = {std::exp(in.log_scale[0]), std::exp(in.log_scale[1]), std::exp(in.log_scale[2])};
   float cov3d[6];
   splat::covariance3d_of_scale(in.quat, scale, cov3d);
   ProjectBackward<float> out;
-  project_backward(camera, in.mean, cov3d, s.conic, by, out);
+  project_backward_any(camera, in.mean, cov3d, s.conic, by, low_pass, out);
   for (int k = 0; k < 3; ++k) row[ParameterRow::kMean + static_cast<std::size_t>(k)] = out.mean[k];
   for (int k = 0; k < 6; ++k) pose[k] = out.pose[k];
   covariance3d_backward(in.quat, scale, out.cov3d, row + ParameterRow::kQuat, row + ParameterRow::kLogScale);
-  row[ParameterRow::kOpacity] = by.opacity * s.opacity * (1.0F - s.opacity);
+  // d ln(opacity) / d logit = 1 - opacity, without what anti-aliasing takes from it.
+  row[ParameterRow::kOpacity] = by.log_opacity / (1.0F + std::exp(in.opacity_logit));
   const float offset[3] = {in.mean[0] - camera_position[0], in.mean[1] - camera_position[1],
                            in.mean[2] - camera_position[2]};
   float by_offset[3];

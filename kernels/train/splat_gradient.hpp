@@ -12,7 +12,8 @@ struct SplatGradient {
   T conic[3];  ///< xx, xy, yy
   T opacity;   ///< of the opacity itself, not of its logit
   T rgb[3];
-  T depth;  ///< per m
+  T depth;            ///< per m
+  T log_opacity = 0;  ///< of the logarithm of the opacity as drawn; counts where it is antialiased
 };
 
 }  // namespace edgesplat::train

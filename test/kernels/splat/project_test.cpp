@@ -93,6 +93,8 @@ TEST(View, RefusesCamerasItCannotDraw) {
   EXPECT_EQ(View::from(model, {}).error().code, Errc::kInvalidArgument);
   model = camera();
   model.kind = geometry::CameraKind::kFisheye;
+  EXPECT_TRUE(View::from(model, {}));
+  model.distortion[3] = 0.01;
   EXPECT_FALSE(View::from(model, {}));
   model = camera();
   model.width_px = 0;

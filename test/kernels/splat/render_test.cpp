@@ -69,6 +69,7 @@ struct ReferenceCase {
   int sh_degree;
   int width_px, height_px;
   double scale_max_m;
+  bool fisheye = false, antialiased = false;
 };
 class AgainstReference : public testing::TestWithParam<std::tuple<core::SimdLevel, ReferenceCase>> {
  protected:
@@ -95,7 +96,12 @@ TEST_P(AgainstReference, EveryPixelAgrees) {
   options.background = {0.2F, 0.4F, 0.9F};
   test::ReferenceOptions reference_options;
   reference_options.background = {0.2F, 0.4F, 0.9F};
-  const auto model = camera(c.width_px, c.height_px);
+  options.antialiased = reference_options.antialiased = c.antialiased;
+  auto model = camera(c.width_px, c.height_px);
+  if (c.fisheye) {
+    model.kind = geometry::CameraKind::kFisheye;
+    model.fx_px = model.fy_px = 0.32 * c.width_px;  // 180 degrees across
+  }
   const Picture drawn = draw(cloud, model, pose, options);
   const auto expected = test::reference_render(cloud, model, pose, reference_options);
   constexpr double kBrightest = 4.0, kFarthest_m = 12.0;
@@ -115,19 +121,21 @@ TEST_P(AgainstReference, EveryPixelAgrees) {
   EXPECT_GT(drawn.stats.visible, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Clouds, AgainstReference,
-                         testing::Combine(testing::ValuesIn(core::available_simd_levels()),
-                                          testing::Values(ReferenceCase{1, 4, 0, 33, 17, 0.3},
-                                                          ReferenceCase{2, 300, 0, 64, 48, 0.3},
-                                                          ReferenceCase{3, 300, 1, 65, 47, 0.3},
-                                                          ReferenceCase{4, 300, 2, 50, 50, 1.0},
-                                                          ReferenceCase{5, 300, 3, 64, 64, 0.05},
-                                                          ReferenceCase{6, 1500, 3, 72, 40, 2.0},
-                                                          ReferenceCase{7, 50, 0, 1, 1, 2.0})),
-                         [](const auto& param) {
-                           return std::string(core::to_string(std::get<0>(param.param))) + "_" +
-                                  std::to_string(std::get<1>(param.param).seed);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Clouds, AgainstReference,
+    testing::Combine(
+        testing::ValuesIn(core::available_simd_levels()),
+        testing::Values(ReferenceCase{1, 4, 0, 33, 17, 0.3}, ReferenceCase{2, 300, 0, 64, 48, 0.3},
+                        ReferenceCase{3, 300, 1, 65, 47, 0.3}, ReferenceCase{4, 300, 2, 50, 50, 1.0},
+                        ReferenceCase{5, 300, 3, 64, 64, 0.05}, ReferenceCase{6, 1500, 3, 72, 40, 2.0},
+                        ReferenceCase{7, 50, 0, 1, 1, 2.0},
+                        ReferenceCase{8, 300, 1, 64, 64, 0.1, false, true},
+                        ReferenceCase{9, 600, 2, 80, 60, 0.3, true},
+                        ReferenceCase{10, 600, 0, 65, 65, 0.1, true, true})),
+    [](const auto& param) {
+      return std::string(core::to_string(std::get<0>(param.param))) + "_" +
+             std::to_string(std::get<1>(param.param).seed);
+    });
 
 /// Every splat covers every tile, and some are needles a thousand times as long as thick.
 TEST(Render, GiantsAndNeedlesAgreeWithTheReference) {

@@ -88,7 +88,8 @@ std::vector<StepResult> steps_on_cpu(const splat::View& view, const Task& task, 
     const auto by_splat =
         blend_backward(projected.splats, tiles, view, {drawn.colour, drawn.depth_sum_m, drawn.alpha},
                        {by.colour, by.depth_sum_m, by.alpha}, scratch);
-    GaussianGradients gradients = gaussian_backward(splat::spans_of(cloud), view, by_splat.by_row);
+    GaussianGradients gradients =
+        gaussian_backward(splat::spans_of(cloud), view, task.render, by_splat.by_row);
     result.by_pose = gradients.pose;
     result.visible = gradients.rows.size();
     regularise(task, cloud, gradients, result.loss);
@@ -107,7 +108,7 @@ GaussianGradients gradients_on_cpu(const gaussian::GaussianCloud& cloud, const s
   BlendBackwardScratch scratch;
   const auto by_splat = blend_backward(projected.splats, tiles, view,
                                        {drawn.colour, drawn.depth_sum_m, drawn.alpha}, by_picture, scratch);
-  return gaussian_backward(splat::spans_of(cloud), view, by_splat.by_row);
+  return gaussian_backward(splat::spans_of(cloud), view, options, by_splat.by_row);
 }
 
 #ifdef EDGESPLAT_WITH_CUDA

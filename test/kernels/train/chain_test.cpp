@@ -59,7 +59,7 @@ GaussianGradients gradients_of(const gaussian::GaussianCloud& cloud, const splat
   BlendBackwardScratch scratch;
   const auto by = blend_backward(projected.splats, tiles, view, {colour, depth, alpha},
                                  {loss.colour, loss.depth, loss.alpha}, scratch);
-  return gaussian_backward(splat::spans_of(cloud), view, by.by_row);
+  return gaussian_backward(splat::spans_of(cloud), view, options, by.by_row);
 }
 
 struct ChainCase {
@@ -68,6 +68,7 @@ struct ChainCase {
   int sh_degree;
   double scale_max_m;
   double opaque;  ///< added to every logit: above 4.6 alpha is cut
+  bool fisheye = false, antialiased = false;
 };
 
 class Chain : public testing::TestWithParam<std::tuple<core::SimdLevel, ChainCase>> {
@@ -84,6 +85,11 @@ class Chain : public testing::TestWithParam<std::tuple<core::SimdLevel, ChainCas
     for (float& logit : cloud_.opacity_logits) logit += static_cast<float>(shape_case().opaque);
     for (float& q : cloud_.quats_xyzw) q *= 1.3F;  // gradients must not depend on unit length
     camera_from_map_ = {geometry::so3_exp(random_.vector(0.2)), random_.vector(0.3)};
+    options_.antialiased = reference_options_.antialiased = shape_case().antialiased;
+    if (shape_case().fisheye) {
+      camera_.kind = geometry::CameraKind::kFisheye;
+      camera_.fx_px = camera_.fy_px = 0.35 * kWidth_px;
+    }
     // What the kernel sees is rounded to single precision.
     view_ = *splat::View::from(camera_, camera_from_map_);
     options_.background = {0.2F, 0.4F, 0.9F};
@@ -182,7 +188,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::ValuesIn(core::available_simd_levels()),
                      testing::Values(ChainCase{1, 1, 0, 0.6, 0.0}, ChainCase{2, 12, 0, 0.4, 0.0},
                                      ChainCase{3, 12, 1, 1.0, 2.0}, ChainCase{4, 12, 2, 0.4, 0.0},
-                                     ChainCase{5, 20, 3, 0.8, 0.0}, ChainCase{6, 60, 0, 1.5, 5.0})),
+                                     ChainCase{5, 20, 3, 0.8, 0.0}, ChainCase{6, 60, 0, 1.5, 5.0},
+                                     ChainCase{7, 12, 1, 0.4, 0.0, true},
+                                     ChainCase{8, 20, 0, 0.8, 0.0, false, true},
+                                     ChainCase{9, 20, 1, 0.3, 0.0, true, true})),
     [](const auto& param) {
       return std::string(core::to_string(std::get<0>(param.param))) + "_" +
              std::to_string(std::get<1>(param.param).seed);

@@ -16,6 +16,7 @@ namespace edgesplat::train {
 namespace {
 
 constexpr double kStep = 1e-6;
+constexpr double kLowPass = 0.3;
 
 double central(double& parameter, const std::function<double()>& value) {
   const double before = parameter;
@@ -33,7 +34,9 @@ struct Case {
   std::array<double, 4> quat{};
   SplatGradient<double> by{};
 
-  explicit Case(std::uint64_t seed, double sideways = 0.0) {
+  explicit Case(std::uint64_t seed, double sideways = 0.0, bool fisheye = false, bool antialiased = false) {
+    camera.fisheye = fisheye;
+    camera.antialias = antialiased ? 1.0 : 0.0;
     test::Random random(seed);
     const auto pose = random.transform(1.0);
     const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
@@ -47,33 +50,49 @@ struct Case {
     }
     for (double& s : log_scale) s = random.uniform(-3.0, -1.0);
     for (double& q : quat) q = random.uniform(-1.0, 1.0);
-    by = {random.normal(), random.normal(), {random.normal(), random.normal(), random.normal()}, 0.0, {},
-          random.normal()};
+    by = {random.normal(),
+          random.normal(),
+          {random.normal(), random.normal(), random.normal()},
+          0.0,
+          {},
+          random.normal(),
+          antialiased ? random.normal() : 0.0};
   }
   [[nodiscard]] splat::Projection<double> projected() const {
     double cov3d[6];
     splat::covariance3d(quat.data(), log_scale.data(), cov3d);
     splat::Projection<double> p{};
-    EXPECT_TRUE(splat::project(camera, mean.data(), cov3d, 0.05, 0.3, p));
+    EXPECT_TRUE(splat::project_any(camera, mean.data(), cov3d, 0.05, kLowPass, p));
     return p;
   }
   /// What `by` is the gradient of; the conic's share is enlarged, being a small number.
   [[nodiscard]] double loss() const {
     const auto p = projected();
     return by.u * p.u + by.v * p.v + by.conic[0] * p.conic[0] + by.conic[1] * p.conic[1] +
-           by.conic[2] * p.conic[2] + by.depth * p.p[2];
+           by.conic[2] * p.conic[2] + by.depth * p.depth + by.log_opacity * std::log(p.shrink);
   }
 };
 
-class Projecting : public testing::TestWithParam<std::pair<std::uint64_t, double>> {};
+struct Place {
+  std::uint64_t seed;
+  double sideways;
+  bool fisheye, antialiased;
+};
+class Projecting : public testing::TestWithParam<Place> {
+ protected:
+  [[nodiscard]] static Case at() {
+    const Place& p = GetParam();
+    return Case(p.seed, p.sideways, p.fisheye, p.antialiased);
+  }
+};
 
 TEST_P(Projecting, ReverseAgreesWithDifferences) {
-  Case c(GetParam().first, GetParam().second);
+  Case c = at();
   for (double& conic : c.by.conic) conic *= 1e4;
   double cov3d[6];
   splat::covariance3d(c.quat.data(), c.log_scale.data(), cov3d);
   ProjectBackward<double> out{};
-  project_backward(c.camera, c.mean.data(), cov3d, c.projected().conic, c.by, out);
+  project_backward_any(c.camera, c.mean.data(), cov3d, c.projected().conic, c.by, kLowPass, out);
   std::array<double, 4> by_quat{};
   std::array<double, 3> by_scale{};
   const std::array<double, 3> scale{std::exp(c.log_scale[0]), std::exp(c.log_scale[1]),
@@ -90,11 +109,11 @@ TEST_P(Projecting, ReverseAgreesWithDifferences) {
 }
 
 TEST_P(Projecting, TurningTheCameraAgreesWithDifferences) {
-  Case c(GetParam().first, GetParam().second);
+  Case c = at();
   double cov3d[6];
   splat::covariance3d(c.quat.data(), c.log_scale.data(), cov3d);
   ProjectBackward<double> out{};
-  project_backward(c.camera, c.mean.data(), cov3d, c.projected().conic, c.by, out);
+  project_backward_any(c.camera, c.mean.data(), cov3d, c.projected().conic, c.by, kLowPass, out);
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rotation(c.camera.rotation);
   for (int axis = 0; axis < 3; ++axis) {
     double angle = 0.0;
@@ -109,10 +128,25 @@ TEST_P(Projecting, TurningTheCameraAgreesWithDifferences) {
   }
 }
 
-// The last two lie so far aside that the direction of the Jacobian is clamped.
+// Pinholes 4 and 5 lie so far aside that the direction of the Jacobian is clamped.
 INSTANTIATE_TEST_SUITE_P(Places, Projecting,
-                         testing::Values(std::pair{1, 0.0}, std::pair{2, 0.0}, std::pair{3, 0.0},
-                                         std::pair{4, 3.0}, std::pair{5, -4.0}));
+                         testing::Values(Place{1, 0.0, false, false}, Place{2, 0.0, false, false},
+                                         Place{3, 0.0, false, true}, Place{4, 3.0, false, false},
+                                         Place{5, -4.0, false, true}, Place{6, 0.0, true, false},
+                                         Place{7, 2.5, true, false}, Place{8, -6.0, true, true}));
+
+/// Where the series takes over from the closed form.
+TEST(Fisheye, SeriesAndClosedFormMeet) {
+  for (const double side : {1e-9, 1e-3, 0.1731, 0.1733, 0.4}) {
+    const double p[3] = {side, 0.0, 1.0};
+    const auto f = splat::fisheye_at(p);
+    const double theta = std::atan2(side, 1.0);
+    EXPECT_NEAR(f.s, theta / side, 1e-9) << side;
+    const float single[3] = {static_cast<float>(side), 0.0F, 1.0F};
+    EXPECT_NEAR(splat::fisheye_at(single).g, f.g, 2e-5) << side;
+    EXPECT_NEAR(splat::fisheye_at(single).h, f.h, 2e-3) << side;
+  }
+}
 
 TEST(Colouring, ReverseAgreesWithDifferencesForEveryDegree) {
   test::Random random(6);

@@ -49,33 +49,53 @@ Eigen::Vector3d colour_of(const ReferenceCloud& cloud, std::size_t row, const Ei
   return rgb.cwiseMax(0.0);
 }
 
+/// d(pixel)/d(point), 3DGS's clamp for the pinhole, central differences for the fisheye.
+Eigen::Matrix<double, 2, 3> jacobian_of(const geometry::CameraModel& camera, const Eigen::Vector3d& p) {
+  Eigen::Matrix<double, 2, 3> J;
+  if (camera.kind == geometry::CameraKind::kFisheye) {
+    const double step = 1e-5 * p.norm();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d d = step * Eigen::Vector3d::Unit(axis);
+      J.col(axis) = (*camera.project(p + d) - *camera.project(p - d)) / (2.0 * step);
+    }
+    return J;
+  }
+  const double x_limit = 1.3 * 0.5 * camera.width_px / camera.fx_px;
+  const double y_limit = 1.3 * 0.5 * camera.height_px / camera.fy_px;
+  const double x = std::clamp(p.x() / p.z(), -x_limit, x_limit);
+  const double y = std::clamp(p.y() / p.z(), -y_limit, y_limit);
+  J << camera.fx_px / p.z(), 0.0, -camera.fx_px * x / p.z(), 0.0, camera.fy_px / p.z(),
+      -camera.fy_px * y / p.z();
+  return J;
+}
+
 std::optional<ReferenceSplat> splat_of(const ReferenceCloud& cloud, std::size_t row,
                                        const geometry::CameraModel& camera,
                                        const geometry::RigidTransform& camera_from_map,
                                        const ReferenceOptions& options) {
   const Eigen::Vector3d mean = Eigen::Vector3d(&cloud.means_m[3 * row]);
   const Eigen::Vector3d p = camera_from_map * mean;
-  if (p.z() <= options.near_m) return std::nullopt;
+  const bool fisheye = camera.kind == geometry::CameraKind::kFisheye;
+  const double depth_m = fisheye ? p.norm() : p.z();
+  if (depth_m <= options.near_m) return std::nullopt;
+  if (fisheye && std::atan2(p.head<2>().norm(), p.z()) > 1.9) return std::nullopt;  // as the kernels have it
   const double* q = &cloud.quats_xyzw[4 * row];
   const Eigen::Matrix3d R = Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized().toRotationMatrix();
   const Eigen::Vector3d scale = Eigen::Vector3d(&cloud.log_scales[3 * row]).array().exp();
   const Eigen::Matrix3d sigma = R * scale.cwiseAbs2().asDiagonal() * R.transpose();
-  const double x_limit = 1.3 * 0.5 * camera.width_px / camera.fx_px;
-  const double y_limit = 1.3 * 0.5 * camera.height_px / camera.fy_px;
-  const double x = std::clamp(p.x() / p.z(), -x_limit, x_limit);
-  const double y = std::clamp(p.y() / p.z(), -y_limit, y_limit);
-  Eigen::Matrix<double, 2, 3> J;
-  J << camera.fx_px / p.z(), 0.0, -camera.fx_px * x / p.z(), 0.0, camera.fy_px / p.z(),
-      -camera.fy_px * y / p.z();
+  const Eigen::Matrix<double, 2, 3> J = jacobian_of(camera, p);
   const Eigen::Matrix3d W = camera_from_map.rotation.toRotationMatrix();
   ReferenceSplat splat;
-  splat.covariance_px2 =
-      J * W * sigma * W.transpose() * J.transpose() + options.low_pass_px2 * Eigen::Matrix2d::Identity();
-  splat.centre_px = {camera.fx_px * p.x() / p.z() + camera.cx_px,
-                     camera.fy_px * p.y() / p.z() + camera.cy_px};
+  const Eigen::Matrix2d own_px2 = J * W * sigma * W.transpose() * J.transpose();
+  splat.covariance_px2 = own_px2 + options.low_pass_px2 * Eigen::Matrix2d::Identity();
+  splat.centre_px = fisheye ? *camera.project(p)
+                            : Eigen::Vector2d(camera.fx_px * p.x() / p.z() + camera.cx_px,
+                                              camera.fy_px * p.y() / p.z() + camera.cy_px);
   splat.rgb = colour_of(cloud, row, (mean - camera_from_map.inverse().translation_m).normalized());
   splat.opacity = 1.0 / (1.0 + std::exp(-cloud.opacity_logits[row]));
-  splat.depth_m = p.z();
+  if (options.antialiased)
+    splat.opacity *= std::sqrt(std::max(own_px2.determinant(), 0.0) / splat.covariance_px2.determinant());
+  splat.depth_m = depth_m;
   splat.row = row;
   return splat;
 }

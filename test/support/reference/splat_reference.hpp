@@ -16,6 +16,7 @@ namespace edgesplat::test {
 struct ReferenceOptions {
   double near_m = 0.05;
   double low_pass_px2 = 0.3;
+  bool antialiased = false;
   Eigen::Vector3d background = Eigen::Vector3d::Zero();
 };
 
