@@ -4,27 +4,14 @@
 
 #include "common/io/atomic_file.hpp"
 #include "common/io/trajectory_file.hpp"
+#include "robot/tracking/health_csv.hpp"
 
-#include <cinttypes>
-#include <cstdio>
+#include <fmt/format.h>
+
+#include <cstdint>
 #include <string>
 
 namespace edgesplat::app {
-namespace {
-
-const char* name_of(tracking::TrackingState state) {
-  switch (state) {
-    case tracking::TrackingState::kInitialising:
-      return "initialising";
-    case tracking::TrackingState::kTracking:
-      return "tracking";
-    case tracking::TrackingState::kCoasting:
-      return "coasting";
-  }
-  return "unknown";
-}
-
-}  // namespace
 
 void RunLog::add(const tracking::TrackedGroup& group, int points_in_group, const StageTimes& times) {
   rows_.push_back({group.stamp, group.odom_from_body, group.health, points_in_group, times});
@@ -48,19 +35,15 @@ double RunLog::track_sum_ms() const {
 
 Status RunLog::write(const std::filesystem::path& folder) const {
   std::vector<io::StampedPose> poses;
-  std::string csv =
-      "stamp_s,state,points_in_group,points_used,iterations,residual_rms_m,translation_conditioning,track_ms,"
-      "keyframe_ms,latency_ms\n";
+  std::string csv = fmt::format("stamp_s,points_in_group,{},track_ms,keyframe_ms,latency_ms\n",
+                                tracking::health_csv_header());
   for (const Row& row : rows_) {
     if (row.health.state != tracking::TrackingState::kInitialising)
       poses.push_back({row.stamp, row.odom_from_body});
-    char line[256];
-    std::snprintf(line, sizeof line, "%" PRId64 ".%09" PRId64 ",%s,%d,%d,%d,%.5f,%.2e,%.3f,%.3f,%.3f\n",
-                  to_ns(row.stamp) / 1'000'000'000, to_ns(row.stamp) % 1'000'000'000,
-                  name_of(row.health.state), row.points_in_group, row.health.points_used,
-                  row.health.iterations, row.health.residual_rms_m, row.health.translation_conditioning,
-                  row.times.track_ms, row.times.keyframe_ms, row.times.latency_ms);
-    csv += line;
+    const std::int64_t ns = to_ns(row.stamp);
+    csv += fmt::format("{}.{:09},{},{},{:.3f},{:.3f},{:.3f}\n", ns / 1'000'000'000, ns % 1'000'000'000,
+                       row.points_in_group, tracking::health_csv(row.health), row.times.track_ms,
+                       row.times.keyframe_ms, row.times.latency_ms);
   }
   EDGESPLAT_TRY_STATUS(io::write_tum(folder / "trajectory.tum", poses));
   return io::write_file_atomically(folder / "groups.csv", std::as_bytes(std::span(csv.data(), csv.size())));

@@ -14,7 +14,7 @@ constexpr double kLineRatio = 8.0;
 
 }  // namespace
 
-void PointSums::add(const Eigen::Vector3f& p, const Symmetric3f& covariance_m2) {
+void PointSums::add(const Eigen::Vector3f& p, const Symmetric3f& covariance_m2, float pose_variance) {
   ++count;
   sum_m += p;
   squares_m2(0) += p.x() * p.x();
@@ -24,6 +24,7 @@ void PointSums::add(const Eigen::Vector3f& p, const Symmetric3f& covariance_m2) 
   squares_m2(4) += p.y() * p.z();
   squares_m2(5) += p.z() * p.z();
   noise_m2 += covariance_m2;
+  pose_variance_m2 += pose_variance;
 }
 
 // With eigenvalues l0 <= l1 <= l2 and axes u0 = n, u1, u2 of the scatter C = 1/N sum d_i d_i', a small shift
@@ -62,7 +63,8 @@ PlaneFit fit_plane(const PointSums& sums, float sigma_max_m) {
   fit.plane.normal = axes.col(0).cast<float>();
   fit.plane.centre_m = mean.cast<float>();
   fit.plane.normal_covariance = pack(normal_covariance.cast<float>());
-  fit.plane.offset_variance_m2 = static_cast<float>(noise(0, 0) / n);
+  fit.plane.offset_variance_m2 =
+      static_cast<float>(noise(0, 0) / n) + sums.pose_variance_m2 / static_cast<float>(n);
   fit.plane.excess_variance_m2 = static_cast<float>(excess);
   fit.plane.reach_m2 = static_cast<float>(lambda(2));
   return fit;

@@ -37,6 +37,7 @@ struct Linearised {
   float variance_m2;  ///< of the point and the plane, without the pose
   float spread_m2;    ///< with the pose
   Vector6f row;
+  Matrix6f row_covariance;  ///< of the row, the normal being uncertain
 };
 
 /// What all residuals at one pose share.
@@ -62,6 +63,16 @@ std::optional<Linearised> linearise(const PlaneMatch& match, const Eigen::Vector
   line.variance_m2 = pose.model_variance_m2 + plane.variance_at(match.from_centre_m) +
                      scan.noise->variance_along(p_in_body - scan.lidar_in_body_m, normal_in_body);
   line.spread_m2 = line.variance_m2 + line.row.dot(pose.covariance * line.row);
+  // The row is linear in the normal: (hat(p) R', I) n.
+  Eigen::Matrix3f lever;
+  lever << 0.0F, -p_in_body.z(), p_in_body.y(), p_in_body.z(), 0.0F, -p_in_body.x(), -p_in_body.y(),
+      p_in_body.x(), 0.0F;
+  lever *= pose.rotation.transpose();
+  const Eigen::Matrix3f normal_covariance = unpack(plane.normal_covariance);
+  line.row_covariance.topRightCorner<3, 3>() = lever * normal_covariance;
+  line.row_covariance.topLeftCorner<3, 3>() = line.row_covariance.topRightCorner<3, 3>() * lever.transpose();
+  line.row_covariance.bottomRightCorner<3, 3>() = normal_covariance;
+  line.row_covariance.bottomLeftCorner<3, 3>() = line.row_covariance.topRightCorner<3, 3>().transpose();
   return line;
 }
 
@@ -71,8 +82,9 @@ void accumulate(const Linearised& line, float gate_squared, PlaneResiduals& sums
   const float weight =
       kIndependentShare / (line.variance_m2 * (1.0F + chi_squared / (kRobustSigma * kRobustSigma)));
   const Vector6d row = line.row.cast<double>();
-  sums.information.noalias() += static_cast<double>(weight) * row * row.transpose();
-  sums.gradient += static_cast<double>(weight * line.residual_m) * row;
+  sums.equations.information.noalias() += static_cast<double>(weight) * row * row.transpose();
+  sums.equations.gradient += static_cast<double>(weight * line.residual_m) * row;
+  sums.equations.noise += (weight * line.row_covariance).cast<double>();
   ++sums.used;
   sums.squares_m2 += static_cast<double>(line.residual_m) * static_cast<double>(line.residual_m);
 }
@@ -112,6 +124,15 @@ ShiftedPrior shift(const FilterBelief& prior, const FilterState& present) {
   shifted.covariance.topRows<3>() = (turn * shifted.covariance.topRows<3>()).eval();
   shifted.covariance.leftCols<3>() = (shifted.covariance.leftCols<3>() * turn.transpose()).eval();
   return shifted;
+}
+
+/// Projector on the states that a frozen direction holds still: the pose along it, and the velocity.
+ErrorMatrix frozen_states(const ObservedPart& observed) {
+  ErrorMatrix frozen = ErrorMatrix::Zero();
+  frozen.block<3, 3>(kRot, kRot) = observed.frozen_turns;
+  frozen.block<3, 3>(kPos, kPos) = observed.frozen_steps;
+  frozen.block<3, 3>(kVel, kVel) = observed.frozen_steps;
+  return frozen;
 }
 
 ScanUpdateResult without_update(const FilterBelief& prior, ScanUpdateResult result) {
@@ -160,8 +181,9 @@ PlaneResiduals ScanUpdater::evaluate(const geometry::RigidTransform& odom_from_b
   });
   PlaneResiduals total;
   for (const PlaneResiduals& part : partial_) {
-    total.information += part.information;
-    total.gradient += part.gradient;
+    total.equations.information += part.equations.information;
+    total.equations.gradient += part.equations.gradient;
+    total.equations.noise += part.equations.noise;
     total.used += part.used;
     total.matched += part.matched;
     total.squares_m2 += part.squares_m2;
@@ -172,7 +194,9 @@ PlaneResiduals ScanUpdater::evaluate(const geometry::RigidTransform& odom_from_b
 // With A = H'R^-1 H and b = -H'R^-1 r on the pose only, and U the first six columns of the prior's covariance
 // P, the minimum of |r|^2_R + |x - prior|^2_P is at offset + U (I + A P66)^-1 (b - A offset6), and its
 // covariance is P - U (I + A P66)^-1 A U': only 6x6 systems, and P may be singular (states that are known
-// exactly).
+// exactly). States along a frozen direction are only considered (Schmidt): planes' errors last from scan to
+// scan, and a direction that is seen slightly askew would tell more about it with each. Their rows of the
+// gain are zero, which for the optimal gain K and D = K S K' leaves P - D + F D F, F the projector on them.
 ScanUpdateResult ScanUpdater::run(const FilterBelief& prior, const FilterState& start, const ScanView& scan,
                                   const PlaneMap& map) {
   ScanUpdateResult result;
@@ -185,15 +209,20 @@ ScanUpdateResult ScanUpdater::run(const FilterBelief& prior, const FilterState& 
     result.iterations = i + 1;
     if (result.last.used < config_.min_residuals) return without_update(prior, result);
     const ShiftedPrior shifted = shift(prior, present);
-    const Matrix6d& a = result.last.information;
+    result.observed = keep_observed(result.last.equations);
+    const ObservedPart& observed = result.observed;
+    const Matrix6d& a = observed.information;
     const Matrix6d corner = shifted.covariance.topLeftCorner<6, 6>();
     const Matrix6d gain = (Matrix6d::Identity() + a * corner).partialPivLu().inverse();
-    const Vector6d pull = -result.last.gradient - a * shifted.offset.head<6>();
-    const ErrorVector step = shifted.offset + shifted.covariance.leftCols<6>() * (gain * pull);
+    const Vector6d pull = -observed.gradient - a * shifted.offset.head<6>();
+    const ErrorMatrix frozen = frozen_states(observed);
+    const ErrorVector pulled = shifted.covariance.leftCols<6>() * (gain * pull);
+    const ErrorVector step = shifted.offset + pulled - frozen * pulled;
     if (!step.allFinite()) return without_update(prior, result);
     present = plus(present, step);
-    const ErrorMatrix posterior = shifted.covariance - shifted.covariance.leftCols<6>() * (gain * a) *
-                                                           shifted.covariance.leftCols<6>().transpose();
+    const ErrorMatrix learnt =
+        shifted.covariance.leftCols<6>() * (gain * a) * shifted.covariance.leftCols<6>().transpose();
+    const ErrorMatrix posterior = shifted.covariance - learnt + frozen * learnt * frozen;
     result.belief.covariance = 0.5 * (posterior + posterior.transpose());
     gate_doubt *= kGateShrink;
     gate_covariance =
@@ -203,7 +232,7 @@ ScanUpdateResult ScanUpdater::run(const FilterBelief& prior, const FilterState& 
       break;
   }
   result.belief.state = present;
-  result.translation_conditioning = translation_conditioning(result.last.information);
+  result.translation_conditioning = translation_conditioning(result.last.equations.information);
   return result;
 }
 

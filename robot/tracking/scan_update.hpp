@@ -3,6 +3,7 @@
 #pragma once
 
 #include "robot/tracking/block_loop.hpp"
+#include "robot/tracking/degeneracy.hpp"
 #include "robot/tracking/filter_state.hpp"
 #include "robot/tracking/plane_map.hpp"
 #include "robot/tracking/point_noise.hpp"
@@ -13,9 +14,6 @@
 #include <vector>
 
 namespace edgesplat::tracking {
-
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 struct ScanUpdateConfig {
   int max_iterations = 6;
@@ -31,13 +29,12 @@ struct ScanView {
   const PointNoise* noise = nullptr;
 };
 
-/// Normal equations of the point-to-plane residuals at one pose, on (rotation, position).
+/// The point-to-plane residuals at one pose.
 struct PlaneResiduals {
-  Matrix6d information = Matrix6d::Zero();  ///< sum of H' w H
-  Vector6d gradient = Vector6d::Zero();     ///< sum of H' w r
-  int used = 0;                             ///< residuals within the gate
-  int matched = 0;                          ///< points with a plane, within the gate or not
-  double squares_m2 = 0.0;                  ///< sum of r^2 of the used ones
+  NormalEquations equations;
+  int used = 0;             ///< residuals within the gate
+  int matched = 0;          ///< points with a plane, within the gate or not
+  double squares_m2 = 0.0;  ///< sum of r^2 of the used ones
 };
 
 struct ScanUpdateResult {
@@ -46,6 +43,7 @@ struct ScanUpdateResult {
   int iterations = 0;
   PlaneResiduals last;
   double translation_conditioning = 0.0;
+  ObservedPart observed;  ///< of `last`
 };
 
 /// One residual and its row: r = n'(R p + t - q), dr/d(rot, pos) = [(p x R'n)', n'].

@@ -23,6 +23,14 @@ struct DeskewedPoint {
   float reflectivity;
 };
 
+/// The direction of the pose that the LiDAR tells least about. Signal: what the residuals say about it over
+/// what the errors of the planes' normals alone would seem to say; near 1 there is nothing in it.
+struct WeakestDirection {
+  double signal = 0.0;
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();          ///< in the body, with `step_in_odom` of length 1
+  Eigen::Vector3d step_in_odom = Eigen::Vector3d::Zero();  ///< per metre
+};
+
 /// How far the pose can be trusted.
 struct TrackingHealth {
   TrackingState state = TrackingState::kInitialising;
@@ -32,6 +40,8 @@ struct TrackingHealth {
   /// Smallest eigenvalue of the translation information over the largest: under 1e-3 a direction is
   /// unobserved.
   double translation_conditioning = 0.0;
+  int frozen_directions = 0;  ///< of six: the LiDAR was not believed about these
+  WeakestDirection weakest;
 };
 
 /// One group with its pose: what tracking produces, keyframes and rendering consume. `odom`: continuous,

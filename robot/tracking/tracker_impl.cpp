@@ -19,6 +19,10 @@ constexpr double kSmoothStart_mps = 0.1;
 /// Corrections of the motion within a group larger than these deskew the points anew.
 constexpr double kDeskewAgain_m = 0.002;
 constexpr double kDeskewAgain_rad = 0.0005;
+/// A body that seems to stand still moves no faster than this in any direction that is seen, and is then
+/// taken to be no faster in the others.
+constexpr double kRestSpeed_mps = 0.05;
+constexpr double kRestSigma_mps = 0.02;
 
 PlaneMapConfig map_config(const TrackingConfig& config) {
   return {config.root_voxel_m,
@@ -47,6 +51,7 @@ Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in)
       sweep(rig_in, config_in.max_range_m, loop),
       free_motion(config_in),
       initialiser(config_in, rig_in.imu.value_or(sensor::ImuModel{})),
+      rest(rig_in.imu.value_or(sensor::ImuModel{})),
       with_imu(rig_in.imu.has_value()) {}
 
 Status Tracker::Impl::check_times(const sync::MeasureGroup& group) const {
@@ -155,6 +160,15 @@ ScanUpdateResult Tracker::Impl::update(Prediction& prediction, HostTime at) {
   return again.updated ? again : result;
 }
 
+void Tracker::Impl::use_rest(const ScanUpdateResult& result) {
+  if (!with_imu || imu.empty() || !rest.add(imu, belief->state)) return;
+  const Eigen::Matrix3d unseen =
+      result.updated ? result.observed.frozen_steps : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  const Eigen::Vector3d seen_mps =
+      belief->state.velocity_in_odom_mps - unseen * belief->state.velocity_in_odom_mps;
+  if (seen_mps.norm() < kRestSpeed_mps) hold_velocity(*belief, unseen, kRestSigma_mps);
+}
+
 void Tracker::Impl::extend_map(const ScanUpdateResult& result) {
   // A lost pose must not spoil the map; an unmapped place must enter it.
   const bool unmapped = static_cast<std::size_t>(result.last.matched) * 10 < scan_points_m.size();
@@ -171,18 +185,18 @@ void Tracker::Impl::extend_map(const ScanUpdateResult& result) {
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   const Eigen::Matrix3f rotation_f = rotation.cast<float>();
   const Eigen::Matrix3f rotation_noise = belief->covariance.block<3, 3>(kRot, kRot).cast<float>();
-  const Eigen::Matrix3f position_noise = belief->covariance.block<3, 3>(kPos, kPos).cast<float>();
+  const auto position_variance = static_cast<float>(belief->covariance.block<3, 3>(kPos, kPos).trace() / 3.0);
   const Eigen::Vector3f lidar_in_body = rig.body_from_lidar.translation_m.cast<float>();
   map_points.resize(kept.size());
   loop.run(kept.size(), kBlockSize, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Eigen::Vector3f& p = points[kept[i]];
-      Eigen::Matrix3f lever;
-      lever << 0.0F, -p.z(), p.y(), p.z(), 0.0F, -p.x(), -p.y(), p.x(), 0.0F;
-      const Eigen::Matrix3f in_body =
-          noise.covariance(p - lidar_in_body) + lever * rotation_noise * lever.transpose();
+      const Eigen::Matrix3f in_body = noise.covariance(p - lidar_in_body);
+      // Of hat(p) S hat(p)', S being the rotation's covariance: tr(S) |p|^2 - p' S p.
+      const float turned = rotation_noise.trace() * p.squaredNorm() - p.dot(rotation_noise * p);
       map_points[i].p_in_odom_m = rotation * p.cast<double>() + pose.translation_m;
-      map_points[i].covariance_m2 = pack(rotation_f * in_body * rotation_f.transpose() + position_noise);
+      map_points[i].covariance_m2 = pack(rotation_f * in_body * rotation_f.transpose());
+      map_points[i].pose_variance_m2 = position_variance + turned / 3.0F;
     }
   });
   for (const MapPoint& point : map_points) map.insert(point);
@@ -206,6 +220,8 @@ TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUp
   tracked.health.state = result.updated ? TrackingState::kTracking : TrackingState::kCoasting;
   tracked.health.points_used = result.last.used;
   tracked.health.iterations = result.iterations;
+  tracked.health.frozen_directions = result.observed.frozen;
+  tracked.health.weakest = result.observed.weakest;
   if (result.last.used > 0)
     tracked.health.residual_rms_m = std::sqrt(result.last.squares_m2 / result.last.used);
   tracked.health.translation_conditioning = result.translation_conditioning;
@@ -252,6 +268,7 @@ Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
   belief = result.belief;
   belief_time = at;
   last_end = group.end;
+  use_rest(result);
   extend_map(result);
   return report(group, result);
 }

@@ -7,6 +7,7 @@
 #include "robot/tracking/free_motion.hpp"
 #include "robot/tracking/imu_initialiser.hpp"
 #include "robot/tracking/plane_map.hpp"
+#include "robot/tracking/rest_detector.hpp"
 #include "robot/tracking/scan_update.hpp"
 #include "robot/tracking/sweep.hpp"
 #include "robot/tracking/tracker.hpp"
@@ -35,6 +36,8 @@ struct Tracker::Impl {
   ScanUpdateResult match(const Prediction& prediction, const FilterState& start_at);
   ScanUpdateResult update(Prediction& prediction, HostTime at);
   void pick_scan_points();
+  /// Rest tells the speed along what the LiDAR does not see.
+  void use_rest(const ScanUpdateResult& result);
   void extend_map(const ScanUpdateResult& update);
   TrackedGroup report(const sync::MeasureGroup& group, const ScanUpdateResult& update) const;
 
@@ -48,6 +51,7 @@ struct Tracker::Impl {
   Sweep sweep;
   FreeMotion free_motion;
   ImuInitialiser initialiser;
+  RestDetector rest;
   bool with_imu;               ///< decided at the first pose, then fixed
   int groups_without_imu = 0;  ///< in a row, before the first pose
   int scans_to_redraw = 0;     ///< of a start in motion

@@ -43,6 +43,8 @@ void describe(config::ConfigReader& reader, TrackingConfig& config) {
   reader.field("min_residuals", config.min_residuals, {6, 10000}, "with fewer the group coasts");
   reader.field("max_range_m", config.max_range_m, {1, 1000},
                "farther points are left out of matching and map");
+  reader.field("visual", config.visual,
+               "pictures update the pose after the LiDAR, where the rig has a camera");
 }
 
 // The ranges stand once, in describe(): printing and reading back checks every one of them.

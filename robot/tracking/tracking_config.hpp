@@ -44,6 +44,8 @@ struct TrackingConfig {
   double min_residual_sigma_m = 0.01;  ///< model error of every residual: curvature, roughness, [0.0001, 1]
   int min_residuals = 30;              ///< with fewer the group coasts, [6, 10000]
   double max_range_m = 120.0;          ///< farther points are left out of matching and map, [1, 1000]
+
+  bool visual = true;  ///< pictures update the pose after the LiDAR, where the rig has a camera
 };
 
 /// Visits every field with its range, for common/config.

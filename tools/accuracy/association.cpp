@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/association.hpp"
 
+#include "common/io/mcap_reader.hpp"
+#include "common/io/recording_topics.hpp"
+#include "common/io/ros_messages.hpp"
+
 #include <algorithm>
 
 namespace edgesplat::accuracy {
@@ -40,6 +44,49 @@ std::vector<PosePair> associate(std::span<const io::StampedPose> estimate,
     pairs.push_back({estimated.stamp, estimated.world_from_body, truth.world_from_body});
   }
   return pairs;
+}
+
+std::vector<PosePair> associate_interpolated(std::span<const io::StampedPose> estimate,
+                                             std::span<const io::StampedPose> reference,
+                                             nanoseconds max_gap) {
+  std::vector<PosePair> pairs;
+  const auto truth = sorted(reference);
+  for (const io::StampedPose& pose : sorted(estimate)) {
+    const auto after = std::lower_bound(truth.begin(), truth.end(), pose.stamp,
+                                        [](const io::StampedPose& one, HostTime t) { return one.stamp < t; });
+    if (after == truth.end()) continue;
+    if (after->stamp == pose.stamp) {
+      pairs.push_back({pose.stamp, pose.world_from_body, after->world_from_body});
+      continue;
+    }
+    if (after == truth.begin() || after->stamp - std::prev(after)->stamp > max_gap) continue;
+    const io::StampedPose& before = *std::prev(after);
+    const double share = to_seconds(pose.stamp - before.stamp) / to_seconds(after->stamp - before.stamp);
+    const geometry::RigidTransform& a = before.world_from_body;
+    const geometry::RigidTransform& b = after->world_from_body;
+    pairs.push_back({pose.stamp,
+                     pose.world_from_body,
+                     {a.rotation.slerp(share, b.rotation),
+                      a.translation_m + share * (b.translation_m - a.translation_m)}});
+  }
+  return pairs;
+}
+
+Result<std::vector<io::StampedPose>> read_recorded_truth(const std::filesystem::path& recording) {
+  EDGESPLAT_TRY(io::McapReader reader, io::McapReader::open(recording));
+  io::McapSelection selection;
+  selection.topics.emplace_back(io::kTruthBodyPoseTopic);
+  reader.select(std::move(selection));
+  std::vector<io::StampedPose> poses;
+  while (const auto message = reader.next()) {
+    EDGESPLAT_TRY(const io::PoseStamped pose, io::decode_pose_stamped(message->payload));
+    poses.push_back({pose.stamp, pose.frame_from_body});
+  }
+  if (poses.empty()) {
+    return fail(Errc::kNotFound,
+                recording.string() + " has no truth on " + std::string(io::kTruthBodyPoseTopic));
+  }
+  return poses;
 }
 
 /// First poses later than this after time 0 are not a replayed folder's.

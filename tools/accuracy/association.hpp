@@ -25,6 +25,17 @@ struct PosePair {
                                               std::span<const io::StampedPose> reference,
                                               nanoseconds max_diff);
 
+/// Pairs each pose of the estimate with the reference at the same moment, interpolated (positions linearly,
+/// rotations by slerp) between two reference poses at most `max_gap` apart; poses without such a bracket are
+/// left out. With a reference of 200 Hz the nearest pose may be 2.5 ms away: 3 mm at walking pace.
+[[nodiscard]] std::vector<PosePair> associate_interpolated(std::span<const io::StampedPose> estimate,
+                                                           std::span<const io::StampedPose> reference,
+                                                           nanoseconds max_gap);
+
+/// What a simulated recording says of its body's true way. kNotFound where it does not.
+[[nodiscard]] Result<std::vector<io::StampedPose>> read_recorded_truth(
+    const std::filesystem::path& recording);
+
 enum class ReferenceFormat { kTum, kKitti };
 
 struct ReferenceSource {

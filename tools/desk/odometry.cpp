@@ -39,6 +39,7 @@ class OdometryLoop {
     const HostTime begin = clock_.now();
     EDGESPLAT_TRY(const tracking::TrackedGroup tracked, tracker_.track(group));
     run_.track_ms.push_back(to_seconds(clock_.now() - begin) * 1e3);
+    run_.health.push_back({tracked.stamp, tracked.health});
     if (tracked.health.state != tracking::TrackingState::kInitialising) {
       run_.poses.push_back({tracked.stamp, tracked.odom_from_body});
     }
@@ -53,8 +54,12 @@ class OdometryLoop {
 
 Result<sensor::Rig> choose_rig(const OdometryJob& job, const sensor::Rig& recorded) {
   sensor::Rig rig = job.rig.value_or(recorded);
-  rig.camera.reset();  // groups end with the scans, not with pictures
+  if (std::filesystem::is_directory(job.lidar)) rig.camera.reset();  // groups end with the scans
   if (job.imu && !rig.imu) rig.imu = sensor::ImuModel{};
+  if (job.mode == OdometryMode::kLidar) {
+    rig.imu.reset();
+    rig.camera.reset();
+  }
   return rig;
 }
 
@@ -86,7 +91,9 @@ Result<OdometryRun> run_odometry(const OdometryJob& job, const Clock& clock) {
   if (job.imu) {
     EDGESPLAT_TRY(imu, read_imu_csv(*job.imu));
   }
-  EDGESPLAT_TRY(const auto tracker, tracking::Tracker::create(job.tracking, rig));
+  tracking::TrackingConfig config = job.tracking;
+  config.visual = config.visual && job.mode == OdometryMode::kLidarInertialVisual;
+  EDGESPLAT_TRY(const auto tracker, tracking::Tracker::create(config, rig));
   sync::GroupBuilder builder({}, rig);
   OdometryLoop loop(*tracker, job.timing, clock);
   std::span<const sensor::ImuSample> waiting = imu;

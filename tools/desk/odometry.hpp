@@ -7,6 +7,7 @@
 #include "common/sensor/rig.hpp"
 #include "common/time/clock.hpp"
 #include "robot/sync/measure_group.hpp"
+#include "robot/tracking/tracked_group.hpp"
 #include "robot/tracking/tracking_config.hpp"
 
 #include <cstdint>
@@ -23,17 +24,30 @@ enum class ScanTiming : std::uint8_t {
              ///< (HDL-64E)
 };
 
+/// Which sensors the pose comes from.
+enum class OdometryMode : std::uint8_t {
+  kLidarInertialVisual,  ///< everything that the rig has
+  kLidarInertial,        ///< pictures only say when groups end
+  kLidar,
+};
+
 struct OdometryJob {
   std::filesystem::path lidar;               ///< a folder of KITTI .bin scans, or a recording
   std::optional<std::filesystem::path> imu;  ///< EuRoC's CSV, on the scans' time base
   std::optional<sensor::Rig> rig;            ///< instead of the recording's own
   tracking::TrackingConfig tracking;
   ScanTiming timing = ScanTiming::kInstant;
+  OdometryMode mode = OdometryMode::kLidarInertialVisual;
 };
 
 struct OdometryRun {
   std::vector<io::StampedPose> poses;  ///< odom_from_body, one a group once the first pose is known
   std::vector<double> track_ms;        ///< time in Tracker::track, one a group
+  struct GroupHealth {
+    HostTime stamp{};
+    tracking::TrackingHealth health;
+  };
+  std::vector<GroupHealth> health;  ///< one a group
   std::int64_t groups = 0;
   std::int64_t coasted_groups = 0;
   std::int64_t map_bytes = 0;

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/config_file.hpp"
+#include "common/io/atomic_file.hpp"
 #include "common/metrics/process_usage.hpp"
 #include "common/sensor/rig_config.hpp"
+#include "robot/tracking/health_csv.hpp"
+#include "tools/accuracy/evaluation_text.hpp"
 #include "tools/desk/odometry.hpp"
 #include "tools/desk/verbs.hpp"
 
@@ -24,7 +27,9 @@ struct OdometryOptions {
   std::string imu;
   std::string rig;
   std::string out;
+  std::string groups;
   std::vector<std::string> settings;
+  OdometryMode mode = OdometryMode::kLidarInertialVisual;
   ScanTiming timing = ScanTiming::kInstant;
   bool json = false;
 };
@@ -33,6 +38,7 @@ Result<OdometryJob> job_of(const OdometryOptions& options) {
   OdometryJob job;
   job.lidar = options.lidar;
   job.timing = options.timing;
+  job.mode = options.mode;
   job.tracking = default_tracking(job.lidar);
   if (!options.imu.empty()) job.imu = options.imu;
   if (!options.rig.empty()) {
@@ -69,12 +75,36 @@ nlohmann::json summary_of(const OdometryRun& run) {
           {"peak_rss_bytes", usage.peak_rss_bytes}};
 }
 
+/// Against the truth in a simulated recording; nothing where there is none.
+std::optional<accuracy::Evaluation> evaluate(const OdometryJob& job, const OdometryRun& run) {
+  if (std::filesystem::is_directory(job.lidar)) return std::nullopt;
+  const auto truth = accuracy::read_recorded_truth(job.lidar);
+  if (!truth) return std::nullopt;
+  constexpr auto kMaxGap = from_seconds(0.1);
+  const auto evaluation = accuracy::evaluate(accuracy::associate_interpolated(run.poses, *truth, kMaxGap));
+  if (!evaluation) return std::nullopt;
+  return *evaluation;
+}
+
+Status write_groups(const std::string& path, const OdometryRun& run) {
+  std::string csv = fmt::format("stamp_s,{},track_ms\n", tracking::health_csv_header());
+  for (std::size_t i = 0; i < run.health.size(); ++i) {
+    const std::int64_t ns = to_ns(run.health[i].stamp);
+    csv += fmt::format("{}.{:09},{},{:.3f}\n", ns / 1'000'000'000, ns % 1'000'000'000,
+                       tracking::health_csv(run.health[i].health), run.track_ms[i]);
+  }
+  return io::write_file_atomically(path, std::as_bytes(std::span(csv.data(), csv.size())));
+}
+
 Status run_verb(const OdometryOptions& options) {
   EDGESPLAT_TRY(const OdometryJob job, job_of(options));
   const SteadyClock clock;
   EDGESPLAT_TRY(const OdometryRun run, run_odometry(job, clock));
   EDGESPLAT_TRY_STATUS(io::write_tum(options.out, run.poses));
-  const nlohmann::json summary = summary_of(run);
+  if (!options.groups.empty()) EDGESPLAT_TRY_STATUS(write_groups(options.groups, run));
+  nlohmann::json summary = summary_of(run);
+  const auto evaluation = evaluate(job, run);
+  summary["accuracy"] = evaluation ? accuracy::to_json(*evaluation) : nlohmann::json();
   if (options.json) {
     std::fputs((summary.dump() + "\n").c_str(), stdout);
     return {};
@@ -87,6 +117,7 @@ Status run_verb(const OdometryOptions& options) {
       summary["track_ms"]["max"].get<double>(), summary["cpu_s"].get<double>(),
       summary["peak_rss_bytes"].get<double>() * 1e-6, options.out);
   std::fputs(words.c_str(), stderr);
+  if (evaluation) std::fputs(accuracy::to_text(*evaluation).c_str(), stderr);
   return {};
 }
 
@@ -107,6 +138,14 @@ void add_odometry_verb(CLI::App& app, VerbContext& context) {
   verb->add_option("--timing", options->timing, "When a scan's rays were fired: instant or azimuth (HDL-64E)")
       ->transform(CLI::CheckedTransformer(std::map<std::string, ScanTiming>{
           {"instant", ScanTiming::kInstant}, {"azimuth", ScanTiming::kAzimuth}}));
+  verb->add_option("--mode", options->mode,
+                   "Which sensors the pose comes from: livo (LiDAR, IMU and camera, default), lio, lo")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, OdometryMode>{{"livo", OdometryMode::kLidarInertialVisual},
+                                              {"lio", OdometryMode::kLidarInertial},
+                                              {"lo", OdometryMode::kLidar}}));
+  verb->add_option("--groups", options->groups,
+                   "CSV to write, one line a group: how far its pose can be trusted");
   verb->add_option("--set", options->settings, "A tracking setting, e.g. root_voxel_m=1 (repeatable)");
   verb->add_flag("--json", options->json, "Print one JSON line on stdout");
   verb->callback([options, &context] { context.work = [options] { return run_verb(*options); }; });

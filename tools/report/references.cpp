@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/report/references.hpp"
 
-#include "common/io/mcap_reader.hpp"
-#include "common/io/recording_topics.hpp"
-#include "common/io/ros_messages.hpp"
-
 #include <algorithm>
 
 namespace edgesplat::report {
@@ -13,23 +9,6 @@ namespace {
 
 constexpr auto kMaxDiff = from_seconds(0.01);
 constexpr auto kMaxDiffOfScans = from_seconds(0.05);  // references without stamps: half a 10 Hz scan
-
-Result<std::vector<io::StampedPose>> read_recorded_truth(const std::filesystem::path& recording) {
-  EDGESPLAT_TRY(io::McapReader reader, io::McapReader::open(recording));
-  io::McapSelection selection;
-  selection.topics.emplace_back(io::kTruthBodyPoseTopic);
-  reader.select(std::move(selection));
-  std::vector<io::StampedPose> poses;
-  while (const auto message = reader.next()) {
-    EDGESPLAT_TRY(const io::PoseStamped pose, io::decode_pose_stamped(message->payload));
-    poses.push_back({pose.stamp, pose.frame_from_body});
-  }
-  if (poses.empty()) {
-    return fail(Errc::kNotFound,
-                recording.string() + " has no truth on " + std::string(io::kTruthBodyPoseTopic));
-  }
-  return poses;
-}
 
 std::vector<std::filesystem::path> pseudo_poses(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> paths;
@@ -94,7 +73,7 @@ std::vector<Reference> find_references(RunFolder& run, const std::filesystem::pa
   if (std::filesystem::exists(truth, error)) {
     collector.add("truth", io::read_tum(truth), kMaxDiff);
   } else if (input.extension() == ".mcap") {
-    const auto poses = read_recorded_truth(input);
+    const auto poses = accuracy::read_recorded_truth(input);
     if (poses) {
       if (const Status written = io::write_tum(truth, *poses); !written) {
         run.missing.push_back(written.error().context);

@@ -95,5 +95,18 @@ TEST_F(ReadReference, TimesMustMatchThePosesInNumber) {
   EXPECT_EQ(mismatch.error().code, Errc::kInvalidArgument);
 }
 
+TEST(AssociateInterpolated, TakesTheReferenceAtTheEstimatesMoment) {
+  const std::vector<io::StampedPose> estimate = {pose_at(0.5, 0), pose_at(1.0, 1), pose_at(1.025, 2),
+                                                 pose_at(2.5, 3), pose_at(9.0, 4)};
+  std::vector<io::StampedPose> reference = {pose_at(1.0, 10), pose_at(1.1, 20), pose_at(4.0, 30)};
+  reference[1].world_from_body.rotation = Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ());
+  const auto pairs = associate_interpolated(estimate, reference, from_seconds(0.15));
+  ASSERT_EQ(pairs.size(), 2U);  // before all, in the gap and behind all: left out
+  EXPECT_EQ(pairs[0].reference.translation_m.x(), 10);
+  EXPECT_NEAR(pairs[1].reference.translation_m.x(), 12.5, 1e-9);
+  EXPECT_NEAR(pairs[1].reference.rotation.angularDistance(Eigen::Quaterniond::Identity()), 0.1, 1e-9);
+  EXPECT_EQ(pairs[1].estimate.translation_m.x(), 2);
+}
+
 }  // namespace
 }  // namespace edgesplat::accuracy

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/tracking/health_csv.hpp"
+
+#include <fmt/format.h>
+
+namespace edgesplat::tracking {
+
+std::string_view name_of(TrackingState state) {
+  switch (state) {
+    case TrackingState::kInitialising:
+      return "initialising";
+    case TrackingState::kTracking:
+      return "tracking";
+    case TrackingState::kCoasting:
+      return "coasting";
+  }
+  return "unknown";
+}
+
+std::string_view health_csv_header() {
+  return "state,points_used,iterations,residual_rms_m,translation_conditioning,frozen_directions,"
+         "weakest_signal,weakest_x,weakest_y,weakest_z";
+}
+
+std::string health_csv(const TrackingHealth& health) {
+  const Eigen::Vector3d& step = health.weakest.step_in_odom;
+  return fmt::format("{},{},{},{:.5f},{:.2e},{},{:.2f},{:.3f},{:.3f},{:.3f}", name_of(health.state),
+                     health.points_used, health.iterations, health.residual_rms_m,
+                     health.translation_conditioning, health.frozen_directions, health.weakest.signal,
+                     step.x(), step.y(), step.z());
+}
+
+}  // namespace edgesplat::tracking
