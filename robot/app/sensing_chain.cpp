@@ -94,9 +94,13 @@ void SensingChain::publish_counters(metrics::Registry& metrics) const {
       {"tracking.bad_imu_samples", t.bad_imu_samples},
       {"tracking.imu_gaps", t.imu_gaps},
       {"tracking.evicted_cells", t.evicted_cells},
+      {"tracking.unused_pictures", t.unused_pictures},
+      {"tracking.visual_updates", t.visual_updates},
   };
   for (const auto& [name, value] : tracked) metrics.counter(name).add(static_cast<std::uint64_t>(value));
   metrics.gauge("tracking.map_bytes").set(static_cast<double>(t.map_bytes));
+  metrics.gauge("tracking.visual_points").set(static_cast<double>(t.visual_points));
+  metrics.gauge("tracking.visual_map_bytes").set(static_cast<double>(t.visual_map_bytes));
   metrics.gauge("tracking.span_s").set(keyframe_stage_.log().span_s());
   metrics.gauge("tracking.sum_ms").set(keyframe_stage_.log().track_sum_ms());
   metrics.gauge("tracking.poses").set(static_cast<double>(keyframe_stage_.log().poses()));

@@ -4,11 +4,13 @@
 
 #include "common/geometry/so3.hpp"
 
+#include <cmath>
+
 namespace edgesplat::tracking {
 
 bool FilterState::is_finite() const {
   return odom_from_body.is_finite() && velocity_in_odom_mps.allFinite() && gyro_bias_radps.allFinite() &&
-         accel_bias_mps2.allFinite() && gravity_in_odom_mps2.allFinite();
+         accel_bias_mps2.allFinite() && gravity_in_odom_mps2.allFinite() && std::isfinite(log_gain);
 }
 
 FilterState plus(const FilterState& state, const ErrorVector& error) {
@@ -20,6 +22,7 @@ FilterState plus(const FilterState& state, const ErrorVector& error) {
   sum.gyro_bias_radps = state.gyro_bias_radps + error.segment<3>(kGyroBias);
   sum.accel_bias_mps2 = state.accel_bias_mps2 + error.segment<3>(kAccelBias);
   sum.gravity_in_odom_mps2 = state.gravity_in_odom_mps2 + error.segment<3>(kGravity);
+  sum.log_gain = state.log_gain + error(kGain);
   return sum;
 }
 
@@ -32,6 +35,7 @@ ErrorVector minus(const FilterState& state, const FilterState& other) {
   error.segment<3>(kGyroBias) = state.gyro_bias_radps - other.gyro_bias_radps;
   error.segment<3>(kAccelBias) = state.accel_bias_mps2 - other.accel_bias_mps2;
   error.segment<3>(kGravity) = state.gravity_in_odom_mps2 - other.gravity_in_odom_mps2;
+  error(kGain) = state.log_gain - other.log_gain;
   return error;
 }
 

@@ -9,9 +9,17 @@
 namespace edgesplat::tracking {
 
 /// Places of the error state's parts; rotation and position first, so that LiDAR residuals touch a 6x6
-/// corner.
-enum ErrorIndex : int { kRot = 0, kPos = 3, kVel = 6, kGyroBias = 9, kAccelBias = 12, kGravity = 15 };
-constexpr int kErrorSize = 18;
+/// corner, then the gain, so that photometric ones touch a 7x7 corner.
+enum ErrorIndex : int {
+  kRot = 0,
+  kPos = 3,
+  kGain = 6,
+  kVel = 7,
+  kGyroBias = 10,
+  kAccelBias = 13,
+  kGravity = 16
+};
+constexpr int kErrorSize = 19;
 using ErrorVector = Eigen::Matrix<double, kErrorSize, 1>;
 using ErrorMatrix = Eigen::Matrix<double, kErrorSize, kErrorSize>;
 
@@ -22,6 +30,9 @@ struct FilterState {
   Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();
   Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();
   Eigen::Vector3d gravity_in_odom_mps2 = Eigen::Vector3d(0.0, 0.0, -9.81);
+  /// Natural logarithm of how bright the camera shows things, the first picture being 0: the gain itself is
+  /// positive by construction.
+  double log_gain = 0.0;
 
   [[nodiscard]] bool is_finite() const;
 };

@@ -14,7 +14,8 @@ constexpr double kLineRatio = 8.0;
 
 }  // namespace
 
-void PointSums::add(const Eigen::Vector3f& p, const Symmetric3f& covariance_m2, float pose_variance) {
+void PointSums::add(const Eigen::Vector3f& p, const Symmetric3f& covariance_m2,
+                    const Symmetric3f& pose_covariance_m2) {
   ++count;
   sum_m += p;
   squares_m2(0) += p.x() * p.x();
@@ -24,7 +25,7 @@ void PointSums::add(const Eigen::Vector3f& p, const Symmetric3f& covariance_m2, 
   squares_m2(4) += p.y() * p.z();
   squares_m2(5) += p.z() * p.z();
   noise_m2 += covariance_m2;
-  pose_variance_m2 += pose_variance;
+  pose_m2 += pose_covariance_m2;
 }
 
 // With eigenvalues l0 <= l1 <= l2 and axes u0 = n, u1, u2 of the scatter C = 1/N sum d_i d_i', a small shift
@@ -63,8 +64,8 @@ PlaneFit fit_plane(const PointSums& sums, float sigma_max_m) {
   fit.plane.normal = axes.col(0).cast<float>();
   fit.plane.centre_m = mean.cast<float>();
   fit.plane.normal_covariance = pack(normal_covariance.cast<float>());
-  fit.plane.offset_variance_m2 =
-      static_cast<float>(noise(0, 0) / n) + sums.pose_variance_m2 / static_cast<float>(n);
+  const double pose_variance = axes.col(0).dot(unpack(sums.pose_m2).cast<double>() * axes.col(0)) / n;
+  fit.plane.offset_variance_m2 = static_cast<float>(noise(0, 0) / n + pose_variance);
   fit.plane.excess_variance_m2 = static_cast<float>(excess);
   fit.plane.reach_m2 = static_cast<float>(lambda(2));
   return fit;

@@ -11,18 +11,19 @@
 
 namespace edgesplat::tracking {
 
-/// Running sums of the points of one cell, relative to the cell's centre: all that a plane fit needs, in 68
+/// Running sums of the points of one cell, relative to the cell's centre: all that a plane fit needs, in 88
 /// bytes however many points there were.
 struct PointSums {
   std::uint32_t count = 0;
   Eigen::Vector3f sum_m = Eigen::Vector3f::Zero();
   Symmetric3f squares_m2 = Symmetric3f::Zero();  ///< sum of p p'
   Symmetric3f noise_m2 = Symmetric3f::Zero();    ///< sum of the points' covariances
-  float pose_variance_m2 = 0.0F;                 ///< sum of the variances of the poses they were seen from
+  Symmetric3f pose_m2 = Symmetric3f::Zero();     ///< sum of what the poses' errors add to them
 
-  /// The pose's variance is apart: it moves all points of a scan alike, so it neither turns the plane nor
+  /// The pose's part is separate: it moves all points of a scan alike, so it neither turns the plane nor
   /// averages out.
-  void add(const Eigen::Vector3f& p_from_centre_m, const Symmetric3f& covariance_m2, float pose_variance_m2);
+  void add(const Eigen::Vector3f& p_from_centre_m, const Symmetric3f& covariance_m2,
+           const Symmetric3f& pose_covariance_m2);
 };
 
 /// A plane with its uncertainty. A point p has the signed distance n'(p - centre).

@@ -43,7 +43,7 @@ void PlaneMap::insert(const MapPoint& point) {
   const Index3 index = cell_index(point.p_in_odom_m, inverse_root_);
   const Eigen::Vector3d centre = (index.cast<double>().array() + 0.5) * config_.root_voxel_m;
   const GatheredPoint local{(point.p_in_odom_m - centre).cast<float>(), point.covariance_m2,
-                            point.pose_variance_m2};
+                            point.pose_covariance_m2};
   insert_in({find_or_create_root(index), kIsRoot}, local, 0);
 }
 
@@ -73,7 +73,7 @@ void PlaneMap::gather(CellRef ref, const GatheredPoint& point, int layer) {
   }
   Cell& here = cell(ref);
   gathered_[here.gathered][here.sums.count] = point;
-  here.sums.add(point.p_from_centre_m, point.covariance_m2, point.pose_variance_m2);
+  here.sums.add(point.p_from_centre_m, point.covariance_m2, point.pose_covariance_m2);
   if (here.sums.count < config_.plane_min_points) return;
   const PlaneFit fit = fit_plane(here.sums, config_.plane_sigma_max_m);
   if (fit.verdict == PlaneVerdict::kUndecided && here.sums.count < kGatherPoints) return;
@@ -110,7 +110,7 @@ void PlaneMap::split(CellRef ref, int layer) {
 void PlaneMap::refine(CellRef ref, const GatheredPoint& point, int layer) {
   Cell& here = cell(ref);
   if (here.sums.count >= config_.plane_freeze_points) return;
-  here.sums.add(point.p_from_centre_m, point.covariance_m2, point.pose_variance_m2);
+  here.sums.add(point.p_from_centre_m, point.covariance_m2, point.pose_covariance_m2);
   // Refit at every quarter more points: often while the plane still moves, seldom later.
   if (here.sums.count < here.fitted_count + std::max(4U, here.fitted_count / 4U) &&
       here.sums.count < config_.plane_freeze_points) {

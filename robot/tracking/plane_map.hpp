@@ -27,8 +27,8 @@ struct PlaneMapConfig {
 
 struct MapPoint {
   Eigen::Vector3d p_in_odom_m;
-  Symmetric3f covariance_m2;      ///< of the measurement, in odom
-  float pose_variance_m2 = 0.0F;  ///< what the pose's uncertainty adds, along a mean axis
+  Symmetric3f covariance_m2;                             ///< of the measurement, in odom
+  Symmetric3f pose_covariance_m2 = Symmetric3f::Zero();  ///< what the pose's uncertainty adds
 };
 
 /// A plane near a point, and the point seen from the plane's centre.
@@ -75,7 +75,7 @@ class PlaneMap {
   struct GatheredPoint {
     Eigen::Vector3f p_from_centre_m;
     Symmetric3f covariance_m2;
-    float pose_variance_m2;
+    Symmetric3f pose_covariance_m2;
   };
   using Gathered = std::array<GatheredPoint, kGatherPoints>;
   struct Root {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/tracking/scan_update.hpp"
 
-#include "common/geometry/so3.hpp"
+#include "robot/tracking/iterated_update.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -112,20 +112,6 @@ PlaneResiduals sum_block(std::span<const Eigen::Vector3f> points, const PoseView
   return sums;
 }
 
-/// The prior seen from the present state x: prior = x ⊞ (offset, covariance).
-struct ShiftedPrior {
-  ErrorVector offset;
-  ErrorMatrix covariance;
-};
-
-ShiftedPrior shift(const FilterBelief& prior, const FilterState& present) {
-  ShiftedPrior shifted{minus(prior.state, present), prior.covariance};
-  const Eigen::Matrix3d turn = geometry::so3_right_jacobian_inverse(shifted.offset.segment<3>(kRot));
-  shifted.covariance.topRows<3>() = (turn * shifted.covariance.topRows<3>()).eval();
-  shifted.covariance.leftCols<3>() = (shifted.covariance.leftCols<3>() * turn.transpose()).eval();
-  return shifted;
-}
-
 /// Projector on the states that a frozen direction holds still: the pose along it, and the velocity.
 ErrorMatrix frozen_states(const ObservedPart& observed) {
   ErrorMatrix frozen = ErrorMatrix::Zero();
@@ -191,12 +177,9 @@ PlaneResiduals ScanUpdater::evaluate(const geometry::RigidTransform& odom_from_b
   return total;
 }
 
-// With A = H'R^-1 H and b = -H'R^-1 r on the pose only, and U the first six columns of the prior's covariance
-// P, the minimum of |r|^2_R + |x - prior|^2_P is at offset + U (I + A P66)^-1 (b - A offset6), and its
-// covariance is P - U (I + A P66)^-1 A U': only 6x6 systems, and P may be singular (states that are known
-// exactly). States along a frozen direction are only considered (Schmidt): planes' errors last from scan to
-// scan, and a direction that is seen slightly askew would tell more about it with each. Their rows of the
-// gain are zero, which for the optimal gain K and D = K S K' leaves P - D + F D F, F the projector on them.
+// States along a frozen direction are only considered (Schmidt): planes' errors last from scan to scan, and a
+// direction that is seen slightly askew would tell more about it with each. Their rows of the gain are zero,
+// which for the optimal gain K and D = K S K' leaves P - D + F D F, F the projector on them.
 ScanUpdateResult ScanUpdater::run(const FilterBelief& prior, const FilterState& start, const ScanView& scan,
                                   const PlaneMap& map) {
   ScanUpdateResult result;
@@ -211,17 +194,12 @@ ScanUpdateResult ScanUpdater::run(const FilterBelief& prior, const FilterState& 
     const ShiftedPrior shifted = shift(prior, present);
     result.observed = keep_observed(result.last.equations);
     const ObservedPart& observed = result.observed;
-    const Matrix6d& a = observed.information;
-    const Matrix6d corner = shifted.covariance.topLeftCorner<6, 6>();
-    const Matrix6d gain = (Matrix6d::Identity() + a * corner).partialPivLu().inverse();
-    const Vector6d pull = -observed.gradient - a * shifted.offset.head<6>();
+    const Correction correction = correct<6>(shifted, observed.information, observed.gradient);
     const ErrorMatrix frozen = frozen_states(observed);
-    const ErrorVector pulled = shifted.covariance.leftCols<6>() * (gain * pull);
-    const ErrorVector step = shifted.offset + pulled - frozen * pulled;
+    const ErrorVector step = shifted.offset + correction.pulled - frozen * correction.pulled;
     if (!step.allFinite()) return without_update(prior, result);
     present = plus(present, step);
-    const ErrorMatrix learnt =
-        shifted.covariance.leftCols<6>() * (gain * a) * shifted.covariance.leftCols<6>().transpose();
+    const ErrorMatrix& learnt = correction.learnt;
     const ErrorMatrix posterior = shifted.covariance - learnt + frozen * learnt * frozen;
     result.belief.covariance = 0.5 * (posterior + posterior.transpose());
     gate_doubt *= kGateShrink;

@@ -42,6 +42,9 @@ struct TrackingHealth {
   double translation_conditioning = 0.0;
   int frozen_directions = 0;  ///< of six: the LiDAR was not believed about these
   WeakestDirection weakest;
+  int visual_patches = 0;           ///< patches that the picture was aligned with; 0: it was not
+  double visual_noise_scale = 0.0;  ///< how much larger their residuals are than the noise explains
+  double log_gain = 0.0;            ///< of the picture's brightness, the first picture being 0
 };
 
 /// One group with its pose: what tracking produces, keyframes and rendering consume. `odom`: continuous,

@@ -33,6 +33,10 @@ TrackingCounters Tracker::counters() const {
   TrackingCounters counters = impl_->counters;
   counters.evicted_cells = impl_->map.evicted_roots();
   counters.map_bytes = static_cast<std::int64_t>(impl_->map.bytes());
+  if (impl_->visual) {
+    counters.visual_points = static_cast<std::int64_t>(impl_->visual->map().size());
+    counters.visual_map_bytes = static_cast<std::int64_t>(impl_->visual->map().bytes());
+  }
   return counters;
 }
 

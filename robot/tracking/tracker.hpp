@@ -23,6 +23,10 @@ struct TrackingCounters {
   std::int64_t imu_gaps = 0;             ///< groups of a rig with an IMU whose samples do not cover them
   std::int64_t evicted_cells = 0;        ///< map cells forgotten
   std::int64_t map_bytes = 0;            ///< the map's present size
+  std::int64_t unused_pictures = 0;      ///< of another size than the camera's, or nothing to be seen on them
+  std::int64_t visual_updates = 0;       ///< groups whose picture was aligned with the map
+  std::int64_t visual_points = 0;        ///< in the visual map at present
+  std::int64_t visual_map_bytes = 0;     ///< its present size
 };
 
 /// LiDAR-inertial odometry: an iterated error-state Kalman filter on a map of probabilistic planes; without

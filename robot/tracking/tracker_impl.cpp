@@ -52,7 +52,9 @@ Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in)
       free_motion(config_in),
       initialiser(config_in, rig_in.imu.value_or(sensor::ImuModel{})),
       rest(rig_in.imu.value_or(sensor::ImuModel{})),
-      with_imu(rig_in.imu.has_value()) {}
+      with_imu(rig_in.imu.has_value()) {
+  if (config.visual && rig.camera) visual.emplace(config, *rig.camera, loop);
+}
 
 Status Tracker::Impl::check_times(const sync::MeasureGroup& group) const {
   if (group.end < group.begin) {
@@ -160,6 +162,23 @@ ScanUpdateResult Tracker::Impl::update(Prediction& prediction, HostTime at) {
   return again.updated ? again : result;
 }
 
+// Without an IMU the pose is that of the middle of the points' times, not the picture's.
+VisualUpdateResult Tracker::Impl::see(const sync::MeasureGroup& group, const ScanUpdateResult& scan) {
+  picture_taken = false;
+  if (!visual || !group.image || !group.image->image || !with_imu) return {};
+  picture_taken = visual->take(*group.image);
+  if (!picture_taken) {
+    ++counters.unused_pictures;
+    return {};
+  }
+  VisualUpdateResult result =
+      visual->update(*belief, sweep.points_in_body_m(), !scan.updated || scan.observed.frozen > 0);
+  if (!result.updated) return result;
+  ++counters.visual_updates;
+  belief = result.belief;
+  return result;
+}
+
 void Tracker::Impl::use_rest(const ScanUpdateResult& result) {
   if (!with_imu || imu.empty() || !rest.add(imu, belief->state)) return;
   const Eigen::Matrix3d unseen =
@@ -185,25 +204,27 @@ void Tracker::Impl::extend_map(const ScanUpdateResult& result) {
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   const Eigen::Matrix3f rotation_f = rotation.cast<float>();
   const Eigen::Matrix3f rotation_noise = belief->covariance.block<3, 3>(kRot, kRot).cast<float>();
-  const auto position_variance = static_cast<float>(belief->covariance.block<3, 3>(kPos, kPos).trace() / 3.0);
+  const Eigen::Matrix3f position_noise = belief->covariance.block<3, 3>(kPos, kPos).cast<float>();
   const Eigen::Vector3f lidar_in_body = rig.body_from_lidar.translation_m.cast<float>();
   map_points.resize(kept.size());
   loop.run(kept.size(), kBlockSize, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Eigen::Vector3f& p = points[kept[i]];
       const Eigen::Matrix3f in_body = noise.covariance(p - lidar_in_body);
-      // Of hat(p) S hat(p)', S being the rotation's covariance: tr(S) |p|^2 - p' S p.
-      const float turned = rotation_noise.trace() * p.squaredNorm() - p.dot(rotation_noise * p);
+      Eigen::Matrix3f lever;
+      lever << 0.0F, -p.z(), p.y(), p.z(), 0.0F, -p.x(), -p.y(), p.x(), 0.0F;
+      const Eigen::Matrix3f turned = rotation_f * lever;
       map_points[i].p_in_odom_m = rotation * p.cast<double>() + pose.translation_m;
       map_points[i].covariance_m2 = pack(rotation_f * in_body * rotation_f.transpose());
-      map_points[i].pose_variance_m2 = position_variance + turned / 3.0F;
+      map_points[i].pose_covariance_m2 = pack(turned * rotation_noise * turned.transpose() + position_noise);
     }
   });
   for (const MapPoint& point : map_points) map.insert(point);
   map.slide(pose.translation_m);
 }
 
-TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUpdateResult& result) const {
+TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUpdateResult& result,
+                                   const VisualUpdateResult& picture) const {
   const FilterBelief at_end =
       belief_time < group.end
           ? predict_without_imu(*belief, free_motion.without_imu(), {belief_time, group.end}).belief
@@ -222,6 +243,9 @@ TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUp
   tracked.health.iterations = result.iterations;
   tracked.health.frozen_directions = result.observed.frozen;
   tracked.health.weakest = result.observed.weakest;
+  tracked.health.visual_patches = picture.patches;
+  tracked.health.visual_noise_scale = picture.noise_scale;
+  tracked.health.log_gain = belief->state.log_gain;
   if (result.last.used > 0)
     tracked.health.residual_rms_m = std::sqrt(result.last.squares_m2 / result.last.used);
   tracked.health.translation_conditioning = result.translation_conditioning;
@@ -245,7 +269,7 @@ TrackedGroup Tracker::Impl::start(const sync::MeasureGroup& group) {
   first.updated = true;  // this pose defines odom
   extend_map(first);
   scans_to_redraw = kRedrawnScans;
-  TrackedGroup tracked = report(group, first);
+  TrackedGroup tracked = report(group, first, {});
   // Without an IMU the speed is unknown until the second group: a sweep cannot be deskewed yet, and where the
   // body was at its end is not known either. The map is begun, but no pose is claimed.
   if (!with_imu && sweep.has_point_times()) tracked.health.state = TrackingState::kInitialising;
@@ -268,9 +292,11 @@ Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
   belief = result.belief;
   belief_time = at;
   last_end = group.end;
-  use_rest(result);
+  const VisualUpdateResult picture = see(group, result);
+  if (!picture.updated) use_rest(result);
   extend_map(result);
-  return report(group, result);
+  if (picture_taken) visual->extend(*belief, map);
+  return report(group, result, picture);
 }
 
 }  // namespace edgesplat::tracking

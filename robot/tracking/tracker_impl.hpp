@@ -11,6 +11,7 @@
 #include "robot/tracking/scan_update.hpp"
 #include "robot/tracking/sweep.hpp"
 #include "robot/tracking/tracker.hpp"
+#include "robot/tracking/visual_front.hpp"
 
 #include <optional>
 #include <vector>
@@ -38,8 +39,11 @@ struct Tracker::Impl {
   void pick_scan_points();
   /// Rest tells the speed along what the LiDAR does not see.
   void use_rest(const ScanUpdateResult& result);
+  /// The picture's update, at the moment of the LiDAR's.
+  VisualUpdateResult see(const sync::MeasureGroup& group, const ScanUpdateResult& scan);
   void extend_map(const ScanUpdateResult& update);
-  TrackedGroup report(const sync::MeasureGroup& group, const ScanUpdateResult& update) const;
+  [[nodiscard]] TrackedGroup report(const sync::MeasureGroup& group, const ScanUpdateResult& scan,
+                                    const VisualUpdateResult& picture) const;
 
   TrackingConfig config;
   sensor::Rig rig;
@@ -52,6 +56,8 @@ struct Tracker::Impl {
   FreeMotion free_motion;
   ImuInitialiser initialiser;
   RestDetector rest;
+  std::optional<VisualFront> visual;
+  bool picture_taken = false;  ///< the group's picture is in `visual`
   bool with_imu;               ///< decided at the first pose, then fixed
   int groups_without_imu = 0;  ///< in a row, before the first pose
   int scans_to_redraw = 0;     ///< of a start in motion

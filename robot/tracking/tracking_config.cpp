@@ -45,6 +45,8 @@ void describe(config::ConfigReader& reader, TrackingConfig& config) {
                "farther points are left out of matching and map");
   reader.field("visual", config.visual,
                "pictures update the pose after the LiDAR, where the rig has a camera");
+  reader.field("visual_map_max_mb", config.visual_map_max_mb, {1, 4096},
+               "the farthest visual points are forgotten above this size");
 }
 
 // The ranges stand once, in describe(): printing and reading back checks every one of them.

@@ -45,7 +45,8 @@ struct TrackingConfig {
   int min_residuals = 30;              ///< with fewer the group coasts, [6, 10000]
   double max_range_m = 120.0;          ///< farther points are left out of matching and map, [1, 1000]
 
-  bool visual = true;  ///< pictures update the pose after the LiDAR, where the rig has a camera
+  bool visual = true;          ///< pictures update the pose after the LiDAR, where the rig has a camera
+  int visual_map_max_mb = 32;  ///< the farthest visual points are forgotten above this size, [1, 4096]
 };
 
 /// Visits every field with its range, for common/config.

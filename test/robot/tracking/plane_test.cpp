@@ -38,7 +38,7 @@ PointSums noisy_sums(const Patch& patch, const Eigen::Matrix3d& covariance, test
   PointSums sums;
   for (const Vector3d& p : patch.truth_m) {
     const Vector3d noise = root * Vector3d(random.normal(), random.normal(), random.normal());
-    sums.add((p + noise).cast<float>(), pack(covariance.cast<float>()), 0.0F);
+    sums.add((p + noise).cast<float>(), pack(covariance.cast<float>()), Symmetric3f::Zero());
   }
   return sums;
 }
@@ -54,7 +54,7 @@ TEST(PointNoise, AgreesAlongADirectionWithTheWholeMatrix) {
 TEST(PlaneFit, FindsTheNormalOfExactPoints) {
   const Patch patch = make_patch(20, 0.4, 1);
   PointSums sums;
-  for (const Vector3d& p : patch.truth_m) sums.add(p.cast<float>(), Symmetric3f::Zero(), 0.0F);
+  for (const Vector3d& p : patch.truth_m) sums.add(p.cast<float>(), Symmetric3f::Zero(), Symmetric3f::Zero());
   const PlaneFit fit = fit_plane(sums, 0.05F);
   ASSERT_EQ(fit.verdict, PlaneVerdict::kPlane);
   EXPECT_NEAR(std::abs(fit.plane.normal.cast<double>().dot(patch.axes.col(0))), 1.0, 1e-5);
@@ -68,8 +68,8 @@ TEST(PlaneFit, TellsLinesAndClumpsFromPlanes) {
   test::Random random(3);
   for (int i = 0; i < 20; ++i) {
     const Vector3d jitter = 0.005 * Vector3d(random.normal(), random.normal(), random.normal());
-    line.add((Vector3d(0.02 * i, 0, 0) + jitter).cast<float>(), Symmetric3f::Zero(), 0.0F);
-    clump.add(random.vector(0.4).cast<float>(), Symmetric3f::Zero(), 0.0F);
+    line.add((Vector3d(0.02 * i, 0, 0) + jitter).cast<float>(), Symmetric3f::Zero(), Symmetric3f::Zero());
+    clump.add(random.vector(0.4).cast<float>(), Symmetric3f::Zero(), Symmetric3f::Zero());
   }
   EXPECT_EQ(fit_plane(line, 0.05F).verdict, PlaneVerdict::kUndecided);
   EXPECT_EQ(fit_plane(clump, 0.05F).verdict, PlaneVerdict::kNoPlane);
@@ -115,7 +115,7 @@ TEST(PlaneFit, RoughGroundIsNotTakenForAnExactPlane) {
   PointSums sums;
   for (const Vector3d& p : patch.truth_m) {
     sums.add((p + 0.03 * random.normal() * patch.axes.col(0)).cast<float>(),
-             pack((1e-6 * Eigen::Matrix3d::Identity()).cast<float>()), 0.0F);
+             pack((1e-6 * Eigen::Matrix3d::Identity()).cast<float>()), Symmetric3f::Zero());
   }
   const PlaneFit fit = fit_plane(sums, 0.1F);
   ASSERT_EQ(fit.verdict, PlaneVerdict::kPlane);

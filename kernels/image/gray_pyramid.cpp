@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/image/gray_pyramid.hpp"
+
+#include "common/base/check.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace edgesplat::image {
+namespace {
+
+void resize(sensor::ImageGray8& image, int width_px, int height_px) {
+  image.width_px = width_px;
+  image.height_px = height_px;
+  image.values.resize(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
+}
+
+void to_gray(const sensor::ImageRgb8& picture, sensor::ImageGray8& gray) {
+  resize(gray, picture.width_px, picture.height_px);
+  const std::uint8_t* rgb = picture.values.data();
+  for (std::uint8_t& value : gray.values) {
+    value = static_cast<std::uint8_t>((77U * rgb[0] + 150U * rgb[1] + 29U * rgb[2] + 128U) >> 8U);
+    rgb += 3;
+  }
+}
+
+/// to_gray() and halve() in one pass.
+void to_half_gray(const sensor::ImageRgb8& picture, sensor::ImageGray8& gray) {
+  resize(gray, picture.width_px / 2, picture.height_px / 2);
+  for (int y = 0; y < gray.height_px; ++y) {
+    const std::uint8_t* a = picture.pixel(0, 2 * y);
+    const std::uint8_t* b = picture.pixel(0, 2 * y + 1);
+    std::uint8_t* out = gray.pixel(0, y);
+    for (int x = 0; x < gray.width_px; ++x, a += 6, b += 6) {
+      const int red = a[0] + a[3] + b[0] + b[3];
+      const int green = a[1] + a[4] + b[1] + b[4];
+      const int blue = a[2] + a[5] + b[2] + b[5];
+      out[x] = static_cast<std::uint8_t>((77 * red + 150 * green + 29 * blue + 512) >> 10);
+    }
+  }
+}
+
+void halve(const sensor::ImageGray8& image, sensor::ImageGray8& half) {
+  resize(half, image.width_px / 2, image.height_px / 2);
+  for (int y = 0; y < half.height_px; ++y) {
+    const std::uint8_t* a = image.pixel(0, 2 * y);
+    const std::uint8_t* b = image.pixel(0, 2 * y + 1);
+    std::uint8_t* out = half.pixel(0, y);
+    for (std::ptrdiff_t x = 0; x < half.width_px; ++x) {
+      out[x] = static_cast<std::uint8_t>((a[2 * x] + a[2 * x + 1] + b[2 * x] + b[2 * x + 1] + 2) >> 2);
+    }
+  }
+}
+
+}  // namespace
+
+void GrayPyramid::build(const sensor::ImageRgb8& picture, int skip, int levels) {
+  EDGESPLAT_CHECK(skip >= 0 && skip <= 4 && levels >= 1, "a pyramid has a level");
+  EDGESPLAT_CHECK(std::min(picture.width_px, picture.height_px) >> (skip + levels) > 0,
+                  "room for its levels");
+  levels_.resize(static_cast<std::size_t>(levels));
+  if (skip == 0) {
+    to_gray(picture, levels_[0]);
+  } else {
+    to_half_gray(picture, levels_[0]);
+  }
+  for (int i = 1; i < skip; ++i) {
+    sensor::ImageGray8 half;
+    halve(levels_[0], half);
+    levels_[0] = std::move(half);
+  }
+  for (std::size_t l = 1; l < levels_.size(); ++l) halve(levels_[l - 1], levels_[l]);
+}
+
+geometry::CameraModel halved(const geometry::CameraModel& camera, int times) {
+  geometry::CameraModel half = camera;
+  for (int i = 0; i < times; ++i) {
+    half.width_px /= 2;
+    half.height_px /= 2;
+    half.fx_px /= 2.0;
+    half.fy_px /= 2.0;
+    half.cx_px = (half.cx_px + 0.5) / 2.0 - 0.5;  // pixel centres lie at whole numbers
+    half.cy_px = (half.cy_px + 0.5) / 2.0 - 0.5;
+  }
+  return half;
+}
+
+}  // namespace edgesplat::image

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/image/patch.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace edgesplat::image {
+namespace {
+
+constexpr float kHalf = 0.5F * (kPatchSide - 1);
+
+/// All of [x - reach, x + reach] can be interpolated.
+bool fits(float x, float reach, int size) {
+  return x - reach >= 0.0F && x + reach < static_cast<float>(size - 1);
+}
+
+float bilinear(const sensor::ImageGray8& picture, float x, float y) {
+  const auto ix = static_cast<int>(x);
+  const auto iy = static_cast<int>(y);
+  const float fx = x - static_cast<float>(ix);
+  const float fy = y - static_cast<float>(iy);
+  const std::uint8_t* top = picture.pixel(ix, iy);
+  const std::uint8_t* bottom = top + picture.width_px;
+  const auto a = static_cast<float>(top[0]), b = static_cast<float>(top[1]);
+  const auto c = static_cast<float>(bottom[0]), d = static_cast<float>(bottom[1]);
+  const float above = a + fx * (b - a);
+  const float below = c + fx * (d - c);
+  return above + fy * (below - above);
+}
+
+}  // namespace
+
+std::optional<BorderedPatch> cut_patch(const sensor::ImageGray8& picture, const Eigen::Vector2f& centre_px) {
+  if (!fits(centre_px.x(), kHalf + 1.0F, picture.width_px) ||
+      !fits(centre_px.y(), kHalf + 1.0F, picture.height_px)) {
+    return std::nullopt;
+  }
+  BorderedPatch patch;
+  std::size_t i = 0;
+  for (int row = 0; row < kBorderedSide; ++row) {
+    for (int column = 0; column < kBorderedSide; ++column, ++i) {
+      const float x = centre_px.x() + static_cast<float>(column) - kHalf - 1.0F;
+      const float y = centre_px.y() + static_cast<float>(row) - kHalf - 1.0F;
+      // Never negative, and lround is a call. NOLINTNEXTLINE(bugprone-incorrect-roundings)
+      patch[i] = static_cast<std::uint8_t>(bilinear(picture, x, y) + 0.5F);
+    }
+  }
+  return patch;
+}
+
+bool sample_patch(const sensor::ImageGray8& picture, const Eigen::Vector2f& centre_px,
+                  const Eigen::Matrix2f& step, PatchValues& values) {
+  const Eigen::Vector2f reach = kHalf * step.cwiseAbs().rowwise().sum();
+  if (!fits(centre_px.x(), reach.x(), picture.width_px) ||
+      !fits(centre_px.y(), reach.y(), picture.height_px)) {
+    return false;
+  }
+  std::size_t i = 0;
+  for (int row = 0; row < kPatchSide; ++row) {
+    const float dy = static_cast<float>(row) - kHalf;
+    for (int column = 0; column < kPatchSide; ++column, ++i) {
+      const float dx = static_cast<float>(column) - kHalf;
+      values[i] = bilinear(picture, centre_px.x() + step(0, 0) * dx + step(0, 1) * dy,
+                           centre_px.y() + step(1, 0) * dx + step(1, 1) * dy);
+    }
+  }
+  return true;
+}
+
+PatchTemplate make_template(const BorderedPatch& patch) {
+  PatchTemplate made;
+  std::size_t i = 0;
+  for (std::size_t row = 1; row <= kPatchSide; ++row) {
+    for (std::size_t column = 1; column <= kPatchSide; ++column, ++i) {
+      const std::size_t at = row * kBorderedSide + column;
+      made.value[i] = static_cast<float>(patch[at]);
+      made.dx[i] = 0.5F * (static_cast<float>(patch[at + 1]) - static_cast<float>(patch[at - 1]));
+      made.dy[i] = 0.5F * (static_cast<float>(patch[at + kBorderedSide]) -
+                           static_cast<float>(patch[at - kBorderedSide]));
+    }
+  }
+  return made;
+}
+
+}  // namespace edgesplat::image

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/tracking/visual_front.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace edgesplat::tracking {
+namespace {
+
+/// Pictures are halved until they are at most this wide: finer ones cost more than they tell.
+constexpr int kMaxWidth_px = 640;
+/// Of the log gain, from picture to picture, where the exposure is not known: it changes in steps.
+constexpr double kGainSigma = 0.3;
+/// Of the log gain that a known exposure makes: vignetting, and that no camera encodes exactly as sRGB does.
+constexpr double kExposureSigma = 0.05;
+/// The part of independent pixels that those of a patch count as, in simulation: little beside a LiDAR that
+/// sees every direction, whose map drifts less than the points do, more where the picture is all there is.
+constexpr double kShareBesideLidar = 0.005;
+constexpr double kShareAlone = 0.03;
+/// A picture whose coarsest level varies less than this (grey levels) shows nothing.
+constexpr double kMinContrast = 2.0;
+
+int halvings(const geometry::CameraModel& camera) {
+  int times = 0;
+  while (camera.width_px >> times > kMaxWidth_px && times < 4) ++times;
+  return times;
+}
+
+/// Standard deviation of a picture's values.
+double contrast(const sensor::ImageGray8& picture) {
+  double sum = 0.0, squares = 0.0;
+  for (const std::uint8_t value : picture.values) {
+    sum += value;
+    squares += static_cast<double>(value) * value;
+  }
+  const auto n = static_cast<double>(picture.values.size());
+  return std::sqrt(std::max(0.0, squares / n - sum / n * sum / n));
+}
+
+/// What exposure and gain do to the values (see kToeGrey).
+std::optional<double> log_gain_of(const sync::GroupImage& picture) {
+  if (!(picture.exposure_s > 0.0F) || !std::isfinite(picture.gain_db)) return std::nullopt;
+  constexpr double kGamma = 2.4;
+  return (std::log(static_cast<double>(picture.exposure_s)) +
+          static_cast<double>(picture.gain_db) * std::numbers::ln10 / 20.0) /
+         kGamma;
+}
+
+}  // namespace
+
+VisualFront::VisualFront(const TrackingConfig& config, const sensor::CameraMount& camera, BlockLoop& loop)
+    : config_(config),
+      full_(camera.model),
+      camera_(image::halved(camera.model, halvings(camera.model))),
+      body_from_camera_(camera.body_from_camera),
+      skip_(halvings(camera.model)),
+      grid_(camera_.width_px, camera_.height_px),
+      updater_({}, loop),
+      map_(static_cast<std::size_t>(config.visual_map_max_mb) << 20U) {}
+
+bool VisualFront::take(const sync::GroupImage& picture) {
+  if (picture.image->width_px != full_.width_px || picture.image->height_px != full_.height_px) return false;
+  exposure_log_gain_ = log_gain_of(picture);
+  if (!first_exposure_log_gain_) first_exposure_log_gain_ = exposure_log_gain_;
+  pyramid_.build(*picture.image, skip_, kPatchLevels);
+  return contrast(pyramid_.level(kPatchLevels - 1)) > kMinContrast;
+}
+
+// The first picture defines gain 1. Later ones have nothing to do with the one before where the exposure is
+// known.
+FilterBelief VisualFront::with_gain(const FilterBelief& prior) const {
+  FilterBelief belief = prior;
+  double variance = belief.covariance(kGain, kGain) + kGainSigma * kGainSigma;
+  if (exposure_log_gain_ && first_exposure_log_gain_) {
+    belief.state.log_gain = *exposure_log_gain_ - *first_exposure_log_gain_;
+    variance = kExposureSigma * kExposureSigma;
+  }
+  belief.covariance.row(kGain).setZero();
+  belief.covariance.col(kGain).setZero();
+  belief.covariance(kGain, kGain) = std::min(variance, 1.0);
+  return belief;
+}
+
+VisualUpdateResult VisualFront::update(const FilterBelief& prior, std::span<const Eigen::Vector3f> points,
+                                       bool alone) {
+  const FilterBelief before = pictures_ > 0 ? with_gain(prior) : prior;
+  depths_.build(points, body_from_camera_.inverse(), camera_);
+  patches_ = select_patches(map_, CameraView(camera_, before.state.odom_from_body * body_from_camera_), grid_,
+                            depths_);
+  last_ = updater_.run(before, map_, patches_, {pyramid_, camera_, body_from_camera_},
+                       alone ? kShareAlone : kShareBesideLidar);
+  return last_;
+}
+
+void VisualFront::extend(const FilterBelief& belief, const PlaneMap& planes) {
+  const CameraView view(camera_, belief.state.odom_from_body * body_from_camera_);
+  const PosedPicture picture{pyramid_, view, static_cast<float>(belief.state.log_gain)};
+  // Without an update the picture's gain is not known.
+  if (!last_.updated && static_cast<int>(patches_.size()) >= VisualUpdateConfig{}.min_patches) return;
+  std::vector<bool> occupied(static_cast<std::size_t>(grid_.cells()), false);
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if (!last_.updated || !last_.agreed[i]) continue;
+    const auto seen = look_at(view, map_.point(patches_[i].point).p_in_odom_m);
+    if (seen) occupied[static_cast<std::size_t>(grid_.cell_of(seen->pixel))] = true;
+  }
+  if (last_.updated) judge_points(map_, patches_, last_.agreed, picture);
+  add_points(map_, planes, picture, grid_, depths_, occupied, pictures_++);
+  map_.slide(view.camera_in_odom_m, config_.map_half_extent_m);
+}
+
+}  // namespace edgesplat::tracking

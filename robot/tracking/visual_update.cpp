@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/tracking/visual_update.hpp"
+
+#include "common/geometry/so3.hpp"
+#include "robot/tracking/iterated_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace edgesplat::tracking {
+namespace {
+
+constexpr std::size_t kBlockSize = 32;
+/// Cauchy kernel: a patch whose mean squared residual is this many times the usual one counts half.
+constexpr double kRobustScale = 3.0;
+/// Patches beyond this many times the usual mean square are left out.
+constexpr double kGateScale = 12.0;
+/// Steps smaller than these end a level: about a hundredth of a pixel.
+constexpr double kRotationDone_rad = 3e-5;
+constexpr double kPositionDone_m = 1e-4;
+constexpr double kPixels = image::kPatchPixels;
+
+/// Of a pixel in a picture halved `times` times.
+Eigen::Vector2f halved_pixel(const Eigen::Vector2d& pixel, int times) {
+  return (((pixel.array() + 0.5) / std::ldexp(1.0, times)) - 0.5).cast<float>();
+}
+
+geometry::RigidTransform odom_from_camera(const FilterState& state, const PictureView& picture) {
+  return state.odom_from_body * picture.body_from_camera;
+}
+
+float median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void VisualUpdater::prepare(int level, const FilterState& state, const VisualMap& map,
+                            std::span<const SelectedPatch> patches, const PictureView& picture) {
+  const CameraView camera(picture.camera, odom_from_camera(state, picture));
+  const geometry::RigidTransform body_from_odom = state.odom_from_body.inverse();
+  const Eigen::Matrix3d odom_from_body = state.odom_from_body.rotation.toRotationMatrix();
+  const int levels = picture.pyramid.levels();
+  prepared_.clear();
+  prepared_.reserve(patches.size());
+  for (const SelectedPatch& patch : patches) {
+    const VisualPoint& point = map.point(patch.point);
+    const VisualObservation& observation = map.observation(patch.reference.observation);
+    Prepared made{PatchResidual(observation.patches[static_cast<std::size_t>(level)], config_.noise), {}, -1};
+    if (const auto seen = look_at(camera, point.p_in_odom_m)) {
+      // The level of this picture whose pixels are about as large as the reference's.
+      const double zoom = 0.5 * std::log2(std::max(1e-6, patch.reference.warp.determinant()));
+      made.level = std::clamp(static_cast<int>(std::lround(level + zoom)), 0, levels - 1);
+      const double shrink = std::ldexp(1.0, -made.level);
+      made.view.step = (std::ldexp(shrink, level) * patch.reference.warp).cast<float>();
+      const Eigen::Vector3d p_in_body = body_from_odom * point.p_in_odom_m;
+      Eigen::Matrix<double, 2, 6> by_pose;
+      by_pose << seen->pixel_by_odom * odom_from_body * geometry::hat(p_in_body), -seen->pixel_by_odom;
+      made.view.pixel_by_pose = (shrink * by_pose).cast<float>();
+      made.view.pixel_by_doubt = (shrink * seen->pixel_by_odom * point.doubt_m.cast<double>()).cast<float>();
+    }
+    prepared_.push_back(made);
+  }
+}
+
+void VisualUpdater::evaluate(const FilterState& state, const VisualMap& map,
+                             std::span<const SelectedPatch> patches, const PictureView& picture) {
+  const geometry::RigidTransform camera_from_odom = odom_from_camera(state, picture).inverse();
+  equations_.resize(patches.size());
+  loop_.run(patches.size(), kBlockSize, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      equations_[i].chi_squared = -1.0F;
+      Prepared& made = prepared_[i];
+      if (made.level < 0) continue;
+      const auto pixel = picture.camera.project(camera_from_odom * map.point(patches[i].point).p_in_odom_m);
+      if (!pixel) continue;
+      made.view.centre_px = halved_pixel(*pixel, made.level);
+      made.view.gain = std::exp(static_cast<float>(state.log_gain) -
+                                map.observation(patches[i].reference.observation).log_gain);
+      if (!made.residual.evaluate(picture.pyramid.level(made.level), made.view, equations_[i]))
+        equations_[i].chi_squared = -1.0F;
+    }
+  });
+}
+
+double VisualUpdater::noise_scale() const {
+  std::vector<float> seen;
+  for (const PatchEquations& one : equations_)
+    if (one.chi_squared >= 0.0F) seen.push_back(one.chi_squared);
+  return seen.empty() ? 1.0 : std::max(1.0, static_cast<double>(median(seen)) / kPixels);
+}
+
+VisualUpdater::Sums VisualUpdater::sum(double scale, double share) const {
+  Sums sums;
+  for (const PatchEquations& one : equations_) {
+    if (one.chi_squared < 0.0F) continue;
+    const double ratio = static_cast<double>(one.chi_squared) / (kPixels * scale);
+    sums.cost += kRobustScale * std::log1p(ratio / kRobustScale);
+    if (ratio > kGateScale) continue;
+    const double weight = share / (scale * (1.0 + ratio / kRobustScale));
+    sums.information += weight * one.information;
+    sums.gradient += weight * one.gradient;
+    ++sums.used;
+  }
+  return sums;
+}
+
+/// The median ratio of brightness: a step of exposure would look like noise to the first linearisation.
+double VisualUpdater::guess_log_gain(const FilterState& state, const VisualMap& map,
+                                     std::span<const SelectedPatch> patches,
+                                     const PictureView& picture) const {
+  const geometry::RigidTransform camera_from_odom = odom_from_camera(state, picture).inverse();
+  std::vector<float> guesses;
+  for (const SelectedPatch& patch : patches) {
+    const auto pixel = picture.camera.project(camera_from_odom * map.point(patch.point).p_in_odom_m);
+    if (!pixel) continue;
+    image::PatchValues seen;
+    if (!image::sample_patch(picture.pyramid.level(0), halved_pixel(*pixel, 0), Eigen::Matrix2f::Identity(),
+                             seen))
+      continue;
+    const VisualObservation& reference = map.observation(patch.reference.observation);
+    const float before = std::accumulate(reference.patches[0].begin(), reference.patches[0].end(), 0.0F) /
+                         static_cast<float>(reference.patches[0].size());
+    const float now = std::accumulate(seen.begin(), seen.end(), 0.0F) / static_cast<float>(seen.size());
+    guesses.push_back(std::log((now + kToeGrey) / (before + kToeGrey)) + reference.log_gain);
+  }
+  return guesses.empty() ? state.log_gain : static_cast<double>(median(guesses));
+}
+
+VisualUpdateResult VisualUpdater::run(const FilterBelief& prior, const VisualMap& map,
+                                      std::span<const SelectedPatch> patches, const PictureView& picture,
+                                      double share) {
+  VisualUpdateResult result;
+  result.belief = prior;
+  if (static_cast<int>(patches.size()) < config_.min_patches) return result;
+  FilterState best = prior.state;
+  best.log_gain = guess_log_gain(prior.state, map, patches, picture);
+  for (int level = kPatchLevels - 1; level >= 0; --level) {
+    prepare(level, best, map, patches, picture);
+    FilterState present = best;
+    double scale = 0.0;
+    double least_cost = std::numeric_limits<double>::infinity();
+    bool enough = true;
+    for (int i = 0; i < config_.max_iterations; ++i) {
+      evaluate(present, map, patches, picture);
+      if (scale <= 0.0) scale = noise_scale();
+      const Sums sums = sum(scale, share);
+      ++result.iterations;
+      enough = sums.used >= config_.min_patches;
+      if (!enough || sums.cost >= least_cost) break;
+      least_cost = sums.cost;
+      best = present;
+      const ShiftedPrior shifted = shift(prior, present);
+      const Correction correction = correct<7>(shifted, sums.information, sums.gradient);
+      const ErrorVector step = shifted.offset + correction.pulled;
+      if (!step.allFinite()) return result;
+      present = plus(present, step);
+      if (level == 0) {
+        const ErrorMatrix posterior = shifted.covariance - correction.learnt;
+        result.belief.covariance = 0.5 * (posterior + posterior.transpose());
+        result.patches = sums.used;
+        result.noise_scale = scale;
+        result.updated = true;
+        result.agreed.assign(patches.size(), false);
+        for (std::size_t k = 0; k < patches.size(); ++k) {
+          const auto ratio = static_cast<double>(equations_[k].chi_squared) / (kPixels * scale);
+          result.agreed[k] = ratio >= 0.0 && ratio < kRobustScale;
+        }
+      }
+      if (step.segment<3>(kRot).norm() < kRotationDone_rad &&
+          step.segment<3>(kPos).norm() < kPositionDone_m) {
+        best = present;
+        break;
+      }
+    }
+  }
+  if (!result.updated) {
+    result.belief = prior;
+    return result;
+  }
+  result.belief.state = best;
+  return result;
+}
+
+}  // namespace edgesplat::tracking

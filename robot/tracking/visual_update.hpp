@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/image/gray_pyramid.hpp"
+#include "robot/tracking/block_loop.hpp"
+#include "robot/tracking/filter_state.hpp"
+#include "robot/tracking/patch_residual.hpp"
+#include "robot/tracking/visual_selection.hpp"
+
+#include <span>
+#include <vector>
+
+namespace edgesplat::tracking {
+
+struct VisualUpdateConfig {
+  PatchNoise noise;
+  int max_iterations = 5;  ///< at each pyramid level
+  int min_patches = 12;
+};
+
+/// The present picture and where its camera sits.
+struct PictureView {
+  const image::GrayPyramid& pyramid;
+  const geometry::CameraModel& camera;  ///< of level 0
+  geometry::RigidTransform body_from_camera;
+};
+
+struct VisualUpdateResult {
+  FilterBelief belief;  ///< the posterior; the prior where `updated` is false
+  bool updated = false;
+  int iterations = 0;
+  int patches = 0;           ///< that counted
+  double noise_scale = 1.0;  ///< how much larger the residuals are than the noise explains, as variances
+  std::vector<bool> agreed;  ///< one a selected patch: it looked as expected
+};
+
+/// The iterated update of the filter with the patches of one picture, coarse to fine (FAST-LIVO2, VI), on
+/// rotation, position and gain. Keeps its buffers; thread-bound.
+class VisualUpdater {
+ public:
+  VisualUpdater(const VisualUpdateConfig& config, BlockLoop& loop) : config_(config), loop_(loop) {}
+
+  /// `share`: the part of independent pixels that those of a patch count as. They share errors of warp, focus
+  /// and depth, and a point's place is as wrong in the next picture as in this one.
+  VisualUpdateResult run(const FilterBelief& prior, const VisualMap& map,
+                         std::span<const SelectedPatch> patches, const PictureView& picture, double share);
+
+ private:
+  /// What a level's patches share between iterations.
+  struct Prepared {
+    PatchResidual residual;
+    PatchView view;
+    int level = 0;  ///< of the present picture
+  };
+  struct Sums {
+    Matrix7d information = Matrix7d::Zero();
+    Vector7d gradient = Vector7d::Zero();
+    double cost = 0.0;
+    int used = 0;
+  };
+  void prepare(int level, const FilterState& state, const VisualMap& map,
+               std::span<const SelectedPatch> patches, const PictureView& picture);
+  /// Equations of every patch at a state; chi squared below 0 for one that is out of the picture.
+  void evaluate(const FilterState& state, const VisualMap& map, std::span<const SelectedPatch> patches,
+                const PictureView& picture);
+  [[nodiscard]] double noise_scale() const;
+  [[nodiscard]] Sums sum(double scale, double share) const;
+  [[nodiscard]] double guess_log_gain(const FilterState& state, const VisualMap& map,
+                                      std::span<const SelectedPatch> patches,
+                                      const PictureView& picture) const;
+
+  VisualUpdateConfig config_;
+  BlockLoop& loop_;
+  std::vector<Prepared> prepared_;
+  std::vector<PatchEquations> equations_;
+};
+
+}  // namespace edgesplat::tracking
