@@ -8,6 +8,7 @@
 #include "common/io/mcap_summary_writer.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -37,6 +38,7 @@ class McapWriter::File {
   Status append(std::span<const std::byte> bytes);
   Status write_start();
   Status flush();
+  Status sync();
   Status close();
   Result<McapSchemaId> add_schema(std::string_view name, std::string_view encoding, std::string_view text);
   Result<McapChannelId> add_channel(McapChannel channel);
@@ -101,6 +103,12 @@ Status McapWriter::File::flush() {
   }
   summary_.add(std::move(*finished));
   return {};
+}
+
+Status McapWriter::File::sync() {
+  EDGESPLAT_TRY_STATUS(flush());
+  if (failed_ || closed_ || ::fdatasync(fd_.get()) == 0) return {};
+  return fail(Errc::kIo, "cannot sync " + path_.string() + ": " + std::generic_category().message(errno));
 }
 
 bool McapWriter::File::chunk_is_due(std::uint64_t log_time_ns) const {
@@ -222,6 +230,7 @@ Result<McapWriter> McapWriter::create(const std::filesystem::path& path, McapWri
   if (!fd.valid()) {
     return fail(Errc::kIo, "cannot create " + path.string() + ": " + std::generic_category().message(errno));
   }
+  (void)::flock(fd.get(), LOCK_EX | LOCK_NB);  // so that nobody repairs what is being written
   auto file = std::make_unique<File>(path, std::move(fd), std::move(options));
   EDGESPLAT_TRY_STATUS(file->write_start());
   return McapWriter(std::move(file));
@@ -268,6 +277,9 @@ Status McapWriter::add_metadata(std::string_view name, const std::map<std::strin
 
 Status McapWriter::flush() {
   return file_->flush();
+}
+Status McapWriter::sync() {
+  return file_->sync();
 }
 Status McapWriter::close() {
   return file_->close();

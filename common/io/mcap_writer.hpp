@@ -24,11 +24,11 @@ struct McapWriterOptions {
   nanoseconds chunk_span{1000000000};  ///< a chunk reaches the file after this much log time at the latest
 };
 
-/// Writes one MCAP file. Each finished chunk goes to the file at once, so a killed program loses at most the
-/// last `chunk_span`; the summary comes with close(). When the disk is full (or any write fails) the call
-/// that met it returns kIo once and the file is cut back to its last whole record; from then on messages are
-/// dropped and counted, and close() says so. Single-owner; write() compresses a chunk now and then (a few
-/// ms).
+/// Writes one MCAP file, and holds a lock on it (flock) meanwhile. Each finished chunk goes to the file at
+/// once, so a killed program loses at most the last `chunk_span` (recover_mcap() makes it whole again); the
+/// summary comes with close(). When the disk is full (or any write fails) the call that met it returns kIo
+/// once and the file is cut back to its last whole record; from then on messages are dropped and counted, and
+/// close() says so. Single-owner; write() compresses a chunk now and then (a few ms).
 class McapWriter {
  public:
   static Result<McapWriter> create(const std::filesystem::path& path, McapWriterOptions options = {});
@@ -54,6 +54,8 @@ class McapWriter {
   [[nodiscard]] Status add_metadata(std::string_view name, const std::map<std::string, std::string>& entries);
   /// Brings the messages so far to the file.
   [[nodiscard]] Status flush();
+  /// The same, and to the disk: what is there outlives a power cut. May take long on a slow disk.
+  [[nodiscard]] Status sync();
   /// Writes the summary and syncs to the disk; calling it again does nothing.
   [[nodiscard]] Status close();
 

@@ -101,6 +101,12 @@ class BoundedQueue {
     (void)filled_.wait_for(lock, timeout, [&] { return closed_ || !entries_.empty(); });
     return take_and_unlock(lock);
   }
+  /// The same; nothing also when `stop` is requested while the queue is empty.
+  [[nodiscard]] std::optional<T> pop_for(std::chrono::nanoseconds timeout, std::stop_token stop) {
+    std::unique_lock lock(mutex_);
+    (void)filled_.wait_for(lock, stop, timeout, [&] { return closed_ || !entries_.empty(); });
+    return take_and_unlock(lock);
+  }
   /// The oldest item if there is one now.
   [[nodiscard]] std::optional<T> try_pop() {
     std::unique_lock lock(mutex_);

@@ -137,6 +137,12 @@ void describe(ConfigReader& reader, RobotConfig& c) {
   reader.table("offload", "where the mapping is done", [&] { describe_offload(reader, c.offload); });
   reader.table("map", "the resident map", [&] { describe_map(reader, c.map); });
   reader.table("local", "the robot's own mapping", [&] { describe_local(reader, c.local); });
+  reader.table("record", "of --record", [&] {
+    reader.field("min_free_bytes", c.record.min_free_bytes, {0, std::uint64_t{1} << 50U},
+                 "less left on its disk ends the recording; the run goes on");
+    reader.field("sync_period_s", c.record.sync_period_s, Range{0.0, 3600.0},
+                 "what a power cut may cost; 0 = left to the system");
+  });
   reader.table("render", "the live picture", [&] {
     reader.field("target_hz", c.render.target_hz, Range{0.0, 120.0}, "pictures a second, 0 = never");
   });

@@ -45,6 +45,12 @@ struct CameraSettings {
   aravis::GigeCameraConfig gige;
 };
 
+/// Of `--record`.
+struct RecordSettings {
+  std::uint64_t min_free_bytes = std::uint64_t{512} << 20U;
+  double sync_period_s = 1.0;
+};
+
 struct RenderSettings {
   double target_hz = 5.0;  ///< pictures a second, 0 = never
 };
@@ -90,6 +96,7 @@ struct RobotConfig {
   OffloadSettings offload;
   map::ResidentMapConfig map;
   local_mapping::LocalMappingConfig local;
+  RecordSettings record;
   RenderSettings render;
   ServerLink server;
 };

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   desk::add_evaluate_verb(app, context);
   desk::add_inspect_verb(app, context);
   desk::add_odometry_verb(app, context);
+  desk::add_recover_verb(app, context);
   desk::add_render_verb(app, context);
   desk::add_replay_verb(app, context);
   desk::add_report_verb(app, context);

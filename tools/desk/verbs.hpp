@@ -23,6 +23,7 @@ void add_convert_verb(CLI::App& app, VerbContext& context);
 void add_evaluate_verb(CLI::App& app, VerbContext& context);
 void add_inspect_verb(CLI::App& app, VerbContext& context);
 void add_odometry_verb(CLI::App& app, VerbContext& context);
+void add_recover_verb(CLI::App& app, VerbContext& context);
 void add_render_verb(CLI::App& app, VerbContext& context);
 void add_replay_verb(CLI::App& app, VerbContext& context);
 void add_report_verb(CLI::App& app, VerbContext& context);

@@ -8,6 +8,7 @@
 #include "robot/drivers/livox/sdk1_packet.hpp"
 
 #include <map>
+#include <system_error>
 #include <utility>
 
 namespace edgesplat::replay {
@@ -38,8 +39,10 @@ io::FrameMeta meta_of(const frame_socket::FrameHeader& header) {
 Result<std::unique_ptr<Recorder>> Recorder::create(const std::filesystem::path& path,
                                                    std::string_view rig_toml, std::string_view robot_toml,
                                                    const RecorderConfig& config) {
-  EDGESPLAT_TRY(io::McapWriter writer, io::McapWriter::create(path));
-  std::unique_ptr<Recorder> recorder(new Recorder(std::move(writer), config));
+  io::McapWriterOptions options;
+  options.chunk_span = config.chunk_span;
+  EDGESPLAT_TRY(io::McapWriter writer, io::McapWriter::create(path, options));
+  std::unique_ptr<Recorder> recorder(new Recorder(std::move(writer), path, config));
   EDGESPLAT_TRY_STATUS(
       recorder->writer_.add_attachment(io::kRigAttachment, "application/toml", bytes_of(rig_toml)));
   EDGESPLAT_TRY_STATUS(
@@ -48,8 +51,9 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::filesystem::path& 
   return recorder;
 }
 
-Recorder::Recorder(io::McapWriter writer, const RecorderConfig& config)
+Recorder::Recorder(io::McapWriter writer, std::filesystem::path path, const RecorderConfig& config)
     : config_(config),
+      path_(std::move(path)),
       writer_(std::move(writer)),
       queue_({config.queue_items, config.queue_bytes}, thread::Overflow::kDropNewest) {}
 
@@ -89,10 +93,34 @@ void Recorder::on_frame(const frame_socket::EncodedFrame& frame, HostTime arriva
 }
 
 Result<bool> Recorder::write_next(const std::stop_token& stop) {
-  const auto item = queue_.pop(stop);
-  if (!item) return false;
-  EDGESPLAT_TRY_STATUS(write(*item));
-  return true;
+  const auto item = queue_.pop_for(config_.chunk_span, stop);
+  if (item) {
+    EDGESPLAT_TRY_STATUS(write(*item));
+    EDGESPLAT_TRY_STATUS(look_after_disk(newest_));
+    return true;
+  }
+  // Nothing comes: what is there must not wait for something that does.
+  if (std::exchange(has_unflushed_, false)) {
+    EDGESPLAT_TRY_STATUS(writer_.flush());
+  }
+  return !stop.stop_requested() && !queue_.finished();
+}
+
+Status Recorder::look_after_disk(HostTime newest) {
+  if (is_stopped_ || newest < next_look_) return {};
+  const bool syncs = config_.sync_period > nanoseconds(0);
+  next_look_ = newest + (syncs ? config_.sync_period : nanoseconds(std::chrono::seconds(1)));
+  if (syncs) EDGESPLAT_TRY_STATUS(writer_.sync());
+  std::error_code error;
+  const auto space = std::filesystem::space(path_, error);
+  if (error || space.available >= config_.min_free_bytes) return {};
+  is_stopped_ = true;
+  EDGESPLAT_TRY_STATUS(writer_.close());
+  constexpr std::uintmax_t kMega = 1'000'000;
+  return fail(Errc::kIo, "the recording " + path_.string() + " ended, whole: its disk has " +
+                             std::to_string(space.available / kMega) +
+                             " MB left, less than record.min_free_bytes (" +
+                             std::to_string(config_.min_free_bytes / kMega) + " MB)");
 }
 
 Status Recorder::finish() {
@@ -102,10 +130,17 @@ Status Recorder::finish() {
     if (Status status = write(*item); !status && first) first = std::move(status);
   }
   Status closed = writer_.close();
+  if (is_stopped_ && first && closed)
+    return fail(Errc::kIo, "the recording " + path_.string() + " ended before the run for lack of room: " +
+                               std::to_string(failed_.load()) + " messages are not in it");
   return first ? closed : first;
 }
 
 Status Recorder::write(const Item& item) {
+  if (is_stopped_) {
+    ++failed_;
+    return {};
+  }
   const std::uint64_t dropped_before =
       writer_.messages_dropped();  // after a full disk the writer only counts
   Status status = std::visit([this](const auto& one) { return write(one); }, item);
@@ -133,6 +168,8 @@ Status Recorder::write(const QueuedFrame& queued) {
 }
 
 Status Recorder::write(Topic topic, HostTime arrival, SensorTime stamp, std::span<const std::byte> payload) {
+  newest_ = arrival;
+  has_unflushed_ = true;
   return writer_.write(channels_.at(topic), sequences_.at(topic)++, arrival, stamp, payload);
 }
 

@@ -24,9 +24,13 @@
 namespace edgesplat::replay {
 
 struct RecorderConfig {
-  std::size_t queue_items = 16'384;                         ///< 6 s of a Mid-360
-  std::size_t queue_bytes = std::size_t{96} << 20U;         ///< what waits for the disk at most
-  livox::Protocol lidar_protocol = livox::Protocol::kSdk2;  ///< of the datagrams; noted in the file
+  std::size_t queue_items = 16'384;                  ///< 6 s of a Mid-360
+  std::size_t queue_bytes = std::size_t{96} << 20U;  ///< what waits for the disk at most
+  nanoseconds chunk_span{
+      400'000'000};  ///< what a killed program loses at most: this and what waits to be written
+  nanoseconds sync_period{1'000'000'000};  ///< what a power cut loses at most besides; 0 = left to the system
+  std::uint64_t min_free_bytes = std::uint64_t{512} << 20U;  ///< less left on the disk ends the recording
+  livox::Protocol lidar_protocol = livox::Protocol::kSdk2;   ///< of the datagrams; noted in the file
 };
 
 struct RecorderCounters {
@@ -36,8 +40,10 @@ struct RecorderCounters {
 };
 
 /// Writes what the sensors send, byte for byte and with its arrival, to a recording that ReplaySource reads
-/// back. on_*() may be called from any thread and never wait; one thread calls write_next() until it gives
-/// false. Each datagram costs one copy.
+/// back. What came is in the file after chunk_span, also when nothing more comes, so that a killed program
+/// loses less than a second (io::recover_mcap() makes its file whole); a disk that gets full ends the
+/// recording, whole, before it is. on_*() may be called from any thread and never wait; one thread calls
+/// write_next() until it gives false. Each datagram costs one copy.
 class Recorder {
  public:
   /// Creates the file with the attachments rig.toml and robot.toml. kIo.
@@ -48,8 +54,9 @@ class Recorder {
   void on_datagram(const livox::Datagram& datagram);
   void on_frame(const frame_socket::EncodedFrame& frame, HostTime arrival);
 
-  /// Waits for something to write and writes it. False when `stop` is requested, or finish() was called, and
-  /// everything is written. A write error is returned once; later messages are counted as failed.
+  /// Waits for something to write, not longer than chunk_span, and writes it. False when `stop` is requested,
+  /// or finish() was called, and everything is written. A write error, or too little room left, is returned
+  /// once; later messages are counted as failed.
   [[nodiscard]] Result<bool> write_next(const std::stop_token& stop);
   /// Writes what waits and the file's summary. Call it after the writing thread has ended.
   [[nodiscard]] Status finish();
@@ -68,8 +75,10 @@ class Recorder {
   using Item = std::variant<QueuedDatagram, QueuedFrame>;
   enum Topic : std::uint8_t { kPoints, kImu, kControl, kMeta, kImage, kTopicCount };
 
-  Recorder(io::McapWriter writer, const RecorderConfig& config);
+  Recorder(io::McapWriter writer, std::filesystem::path path, const RecorderConfig& config);
   [[nodiscard]] Status add_channels();
+  /// Once a sync_period: to the disk, and whether there is room for more.
+  [[nodiscard]] Status look_after_disk(HostTime newest);
   [[nodiscard]] Status write(const Item& item);
   [[nodiscard]] Status write(const QueuedDatagram& datagram);
   [[nodiscard]] Status write(const QueuedFrame& frame);
@@ -77,7 +86,12 @@ class Recorder {
                              std::span<const std::byte> payload);
 
   RecorderConfig config_;
+  std::filesystem::path path_;
   io::McapWriter writer_;
+  bool is_stopped_ = false;  ///< for lack of room
+  HostTime newest_{};        ///< arrival of what was written last
+  HostTime next_look_{};     ///< after the disk
+  bool has_unflushed_ = false;
   thread::BoundedQueue<Item> queue_;
   std::array<io::McapChannelId, kTopicCount> channels_{};
   std::array<std::uint32_t, kTopicCount> sequences_{};

@@ -107,6 +107,10 @@ TEST(BoundedQueue, PopEndsOnTimeoutAndOnStop) {
   stop.request_stop();
   consumer.join();
   EXPECT_EQ(got, std::nullopt);
+  EXPECT_EQ(queue.pop_for(1h, stop.get_token()), std::nullopt);
+  EXPECT_EQ(queue.pop_for(1ms, std::stop_token()), std::nullopt);
+  (void)queue.push(3);
+  EXPECT_EQ(queue.pop_for(1h, stop.get_token()), 3);
 }
 
 TEST(BoundedQueue, HoldsWhatCanOnlyBeMoved) {

@@ -5,6 +5,7 @@
 #include "robot/drivers/replay/recorder.hpp"
 #include "robot/drivers/replay/replay_source.hpp"
 #include "test/robot/livox/packet_bytes.hpp"
+#include "test/robot/livox/sdk1_bytes.hpp"
 #include "test/support/temp_dir.hpp"
 
 #include <gtest/gtest.h>
@@ -183,6 +184,85 @@ TEST(Recording, DamagedDatagramsAreCountedAndNotUsed) {
   EXPECT_EQ(source->report().packets_refused, 2U);
   EXPECT_EQ(source->report().frames_refused, 1U);
   EXPECT_NE(source->report().why.find("20x12"), std::string::npos) << source->report().why;
+}
+
+TEST(Recording, WhatCameIsInTheFileSoonAlsoWhenNothingMoreComes) {
+  const test::TempDir folder;
+  const auto path = folder.path() / "run.mcap";
+  auto recorder = Recorder::create(path, sensor::print_rig(small_rig()), "");
+  ASSERT_TRUE(recorder.has_value());
+  std::jthread writing([&recorder](const std::stop_token& stop) {
+    while ((*recorder)->write_next(stop).value()) {
+    }
+  });
+  for (int index = 0; index < 5; ++index) {
+    const auto points = point_datagram(index);
+    (*recorder)->on_datagram({livox::Channel::kPoints, arrival_of(index), points});
+  }
+  std::size_t seen = 0;
+  for (int attempt = 0; attempt < 200 && seen < 5; ++attempt) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    auto source = ReplaySource::open(path);  // as if the recorder were killed now
+    if (source) seen = count_all(*source).packets;
+  }
+  EXPECT_EQ(seen, 5U);
+  writing.request_stop();
+  writing.join();
+  EXPECT_TRUE((*recorder)->finish().has_value());
+}
+
+TEST(Recording, ADiskThatGetsFullEndsItWhole) {
+  const test::TempDir folder;
+  const auto path = folder.path() / "run.mcap";
+  RecorderConfig config;
+  config.min_free_bytes = std::uint64_t{1} << 60U;  // no disk has as much
+  auto recorder = Recorder::create(path, sensor::print_rig(small_rig()), "", config);
+  ASSERT_TRUE(recorder.has_value());
+  record(**recorder);
+  std::vector<std::string> problems;
+  const std::stop_source stop;
+  for (int i = 0; i < 363; ++i) {
+    const auto more = (*recorder)->write_next(stop.get_token());
+    if (!more) problems.push_back(more.error().context);
+  }
+  ASSERT_EQ(problems.size(), 1U) << "said once";
+  EXPECT_NE(problems.front().find("record.min_free_bytes"), std::string::npos) << problems.front();
+  const auto finished = (*recorder)->finish();
+  ASSERT_FALSE(finished.has_value());
+  EXPECT_NE(finished.error().context.find("362 messages are not in it"), std::string::npos)
+      << finished.error().context;
+  EXPECT_EQ((*recorder)->counters().failed, 362U);
+  auto source = ReplaySource::open(path);
+  ASSERT_TRUE(source.has_value()) << source.error().context;
+  EXPECT_EQ(count_all(*source).packets, 1U);
+  EXPECT_TRUE(source->report().complete) << source->report().why;
+}
+
+TEST(Recording, AnAviasPacketsAreReplayedAsSuch) {
+  const test::TempDir folder;
+  const auto path = folder.path() / "avia.mcap";
+  RecorderConfig config;
+  config.lidar_protocol = livox::Protocol::kSdk1;
+  auto recorder = Recorder::create(path, sensor::print_rig(small_rig()), "", config);
+  ASSERT_TRUE(recorder.has_value());
+  std::vector<std::byte> records;
+  for (int i = 0; i < 96; ++i) livox::append_point_mm(records, 1000 + i, 2000, 3000);
+  const auto imu = livox::imu_record(std::array<float, 6>{0.1F, 0, 0, 0, 0, 1});
+  for (int index = 0; index < 10; ++index) {
+    const auto stamp_ns = static_cast<std::uint64_t>(kStart_ns + index * 400'000);
+    (*recorder)->on_datagram(
+        {livox::Channel::kPoints, arrival_of(index), livox::sdk1_packet(2, 1, stamp_ns, records)});
+    (*recorder)->on_datagram(
+        {livox::Channel::kImu, arrival_of(index), livox::sdk1_packet(6, 1, stamp_ns, imu)});
+    (*recorder)->on_datagram({livox::Channel::kControl, arrival_of(index), imu});
+  }
+  ASSERT_TRUE((*recorder)->finish().has_value());
+  auto source = ReplaySource::open(path);
+  ASSERT_TRUE(source.has_value()) << source.error().context;
+  const Counts counts = count_all(*source);
+  EXPECT_EQ(counts.packets, 10U);
+  EXPECT_EQ(counts.samples, 10U);
+  EXPECT_TRUE(source->report().complete) << source->report().why;
 }
 
 TEST(Recording, NeedsItsRigAndItsTopics) {

@@ -49,6 +49,8 @@ expect 0 evaluate --estimate "$work/a.tum" --reference "$work/a.tum"
 expect 1 evaluate --estimate "$work/none.tum" --reference "$work/a.tum"
 expect 1 report --run "$work/none"
 expect 2 inspect "$work/a.tum" --extract rig.toml
+expect 1 recover "$work/none.mcap"
+expect 1 recover "$work/a.tum"
 expect 2 score
 expect 1 score --run "$work/none"
 expect 1 score --run "$work/run"
