@@ -33,6 +33,24 @@ class DeviceBuffer {
     capacity_ = grown;
     return {};
   }
+  /// The same, keeping the first `kept` values. Waits. kOutOfVram: then the buffer is as it was.
+  [[nodiscard]] Status grow(const Stream& stream, std::size_t count, std::size_t kept) {
+    if (count <= capacity_) return {};
+    const std::size_t grown = count + count / 4;
+    EDGESPLAT_TRY(void* const first, pool_->take(grown * sizeof(T), purpose_));
+    const Status copied = kept == 0 ? Status{}
+                                    : cuda_status(cudaMemcpyAsync(first, first_, kept * sizeof(T),
+                                                                  cudaMemcpyDeviceToDevice, stream.get()),
+                                                  "copying on the device");
+    const Status done = copied ? stream.synchronise() : copied;
+    if (!done) {
+      pool_->give_back(first, grown * sizeof(T));
+      return done;
+    }
+    pool_->give_back(std::exchange(first_, static_cast<T*>(first)),
+                     std::exchange(capacity_, grown) * sizeof(T));
+    return {};
+  }
   [[nodiscard]] T* data() { return first_; }
   [[nodiscard]] const T* data() const { return first_; }
   [[nodiscard]] std::size_t capacity() const { return capacity_; }

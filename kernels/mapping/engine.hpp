@@ -99,6 +99,8 @@ class MappingEngine {
   [[nodiscard]] const SeedStats& seed_stats() const { return seeder_.stats(); }
   [[nodiscard]] const ViewPool& views() const { return views_; }
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  /// Why steps are not taken on the GPU any more; empty while nothing failed there.
+  [[nodiscard]] const std::string& gpu_failure() const { return optimiser_.gpu_failure(); }
   /// Gaussians removed because something was measured behind them.
   [[nodiscard]] std::uint64_t gone() const { return gone_; }
 

@@ -44,6 +44,10 @@ void ExposureTable::learn(std::uint32_t key, std::span<const float> drawn, std::
   step(gradient, entry);
 }
 
+void ExposureTable::learn(std::uint32_t key, const std::array<double, 6>& gradient) {
+  step(gradient, entries_[key]);
+}
+
 void ExposureTable::step(const std::array<double, 6>& gradient, Entry& entry) const {
   constexpr double kBeta1 = 0.9, kBeta2 = 0.999;
   ++entry.steps;

@@ -30,6 +30,8 @@ class ExposureTable {
   [[nodiscard]] Exposure of(std::uint32_t key) const;
   /// Learns from dL by the seen picture [H,W,3], which becomes dL by the drawn one.
   void learn(std::uint32_t key, std::span<const float> drawn, std::span<float> by_seen);
+  /// The same from dL by gain 3 and offset 3, where that is summed up already.
+  void learn(std::uint32_t key, const std::array<double, 6>& gradient);
   void forget(std::uint32_t key) { entries_.erase(key); }
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/mapping/optimiser.hpp"
 
+#include "kernels/mapping/step_device.hpp"
 #include "kernels/splat/render.hpp"
 #include "kernels/train/losses.hpp"
 
@@ -52,7 +53,9 @@ class Stopwatch {
 
 Result<Optimiser> Optimiser::create(const OptimiserOptions& options, const Clock& clock) {
   EDGESPLAT_TRY_STATUS(options.validate());
-  return Optimiser(options, clock);
+  Optimiser optimiser(options, clock);
+  optimiser.open_gpu();
+  return optimiser;
 }
 
 Optimiser::Optimiser(const OptimiserOptions& options, const Clock& clock)
@@ -87,7 +90,11 @@ Result<std::size_t> Optimiser::add_rows(const GaussianCloud& rows) {
   for (std::size_t row = 0; row < count; ++row) append_padded(rows, row, cloud_);
   changes_.begin();
   changes_.resize(cloud_.size());
-  adam_.resize(cloud_.size());
+  if (device_) {
+    device_->appended(count);
+  } else {
+    adam_.resize(cloud_.size());
+  }
   statistics_.resize(cloud_.size());
   return count;
 }
@@ -111,7 +118,11 @@ void Optimiser::keep_rows(std::span<const std::uint32_t> rows) {
   for (std::size_t to = 0; to < rows.size(); ++to)
     if (rows[to] != to) cloud_.copy_row(rows[to], to);
   cloud_.resize(rows.size());
-  adam_.keep_rows(rows);
+  if (device_) {
+    device_->kept(rows);
+  } else {
+    adam_.keep_rows(rows);
+  }
   changes_.keep_rows(rows);
   mapping::keep_rows(rows, statistics_);
 }
@@ -119,11 +130,18 @@ void Optimiser::keep_rows(std::span<const std::uint32_t> rows) {
 GaussianCloud& Optimiser::edit_rows(std::span<const std::uint32_t> rows) {
   changes_.begin();
   for (const std::uint32_t row : rows) changes_.touch(row);
+  if (device_) device_->edited();
   return cloud_;
 }
 
 void Optimiser::forget_moments(std::span<const std::uint32_t> rows) {
-  for (const std::uint32_t row : rows) adam_.reset_row(row);
+  for (const std::uint32_t row : rows) {
+    if (device_) {
+      device_->forget(row);
+    } else {
+      adam_.reset_row(row);
+    }
+  }
 }
 
 void Optimiser::reset_statistics() {
@@ -207,6 +225,15 @@ void Optimiser::move_rows(const splat::View& view, const train::BlendGradients& 
 Result<StepReport> Optimiser::step(const TrainingView& view) {
   if (!view.consistent())
     return fail(Errc::kInvalidArgument, "the training pictures do not have the view's size");
+  if (device_) {
+    auto report = step_on_gpu(view);
+    if (report || report.error().code == Errc::kInvalidArgument) return report;
+    give_up_gpu(report.error());
+  }
+  return step_on_cpu(view);
+}
+
+Result<StepReport> Optimiser::step_on_cpu(const TrainingView& view) {
   StepReport report;
   Stopwatch watch(*clock_);
   size_pictures(view);

@@ -14,10 +14,14 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace edgesplat::mapping {
+
+class StepDevice;
 
 struct StepTimes {
   std::chrono::nanoseconds forward{}, loss{};
@@ -39,9 +43,14 @@ struct StepReport {
 /// Fits the map's Gaussians to pictures, one picture a step: draw, compare, go back, move (3DGS, Kerbl 2023).
 /// Owns the Gaussians. Starts no thread of its own (TBB within a step), does no I/O, keeps no picture. The
 /// caller bounds the time by calling step() until its deadline. Deterministic: the same calls give the same
-/// map whatever the number of threads. Single-owner.
+/// map whatever the number of threads. On a GPU where there is one (`on_gpu`), whose maps differ in rounding;
+/// where it fails, its memory being full for instance, steps go on on the CPU with fresh moments.
+/// Single-owner.
 class Optimiser {
  public:
+  ~Optimiser();
+  Optimiser(Optimiser&&) noexcept;
+  Optimiser& operator=(Optimiser&&) noexcept;
   /// kInvalidConfig for options out of range. `clock` must outlive the optimiser; it only times the steps.
   static Result<Optimiser> create(const OptimiserOptions& options, const Clock& clock);
 
@@ -75,6 +84,10 @@ class Optimiser {
   void reset_statistics();
   [[nodiscard]] ExposureTable& exposures() { return exposures_; }
   [[nodiscard]] const OptimiserOptions& options() const { return options_; }
+  /// Whether steps are taken on a GPU.
+  [[nodiscard]] bool on_gpu() const { return device_ != nullptr; }
+  /// Why the GPU was given up; empty while nothing failed.
+  [[nodiscard]] const std::string& gpu_failure() const { return gpu_failure_; }
   /// Room for so many more rows in the budget.
   [[nodiscard]] std::size_t room() const;
   [[nodiscard]] std::uint64_t rows_refused() const { return rows_refused_; }
@@ -95,6 +108,11 @@ class Optimiser {
   /// From the splats' gradients to moved Gaussians.
   void move_rows(const splat::View& view, const train::BlendGradients& gradients, StepReport& report);
   void keep_rows(std::span<const std::uint32_t> rows);
+  Result<StepReport> step_on_cpu(const TrainingView& view);
+  Result<StepReport> step_on_gpu(const TrainingView& view);
+  /// Takes the GPU where there is one and it is wanted.
+  void open_gpu();
+  void give_up_gpu(const Error& error);
 
   OptimiserOptions options_;
   const Clock* clock_;
@@ -108,6 +126,9 @@ class Optimiser {
   splat::RenderScratch drawn_;
   train::BlendBackwardScratch scratch_;
   std::uint64_t rows_refused_ = 0;
+  std::unique_ptr<StepDevice> device_;  ///< has Adam's moments instead of adam_
+  train::GaussianGradients moved_;      ///< kept for its memory only
+  std::string gpu_failure_;
 };
 
 }  // namespace edgesplat::mapping

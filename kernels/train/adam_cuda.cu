@@ -13,7 +13,7 @@ constexpr unsigned kThreads = 256;
 constexpr unsigned kLanes = ParameterRow::kLanes;
 constexpr unsigned kRowsPerBlock = kThreads / kLanes;
 constexpr unsigned kMostRuns = ParameterRow::kMaxStride / kLanes;
-constexpr std::uint32_t kNotShown = 0xFFFFFFFFU;
+constexpr std::uint32_t kNotShown = kNoRow;
 
 /// Where parameter k of a row lies in the cloud.
 __device__ float* parameter(const splat::CloudOnDevice& cloud, std::size_t row, std::size_t k) {
@@ -128,6 +128,23 @@ __global__ void __launch_bounds__(kThreads) adam_kernel(AdamOnDevice adam) {
   if (threadIdx.x == 0) adam.regular_parts[blockIdx.x] = regular;
 }
 
+__global__ void gather_rows_kernel(RowsOnDevice rows) {
+  const std::size_t i = std::size_t{blockIdx.x} * kThreads + threadIdx.x;
+  if (i >= rows.count * rows.words) return;
+  const std::uint32_t from = rows.from_rows[i / rows.words];
+  rows.to[i] = from == kNoRow ? 0U : rows.from[from * rows.words + i % rows.words];
+}
+
+__global__ void parameters_kernel(ReverseOnDevice reverse) {
+  const splat::CloudOnDevice& cloud = reverse.frame.cloud;
+  const std::size_t i = std::size_t{blockIdx.x} * kThreads + threadIdx.x;
+  const std::size_t j = i / reverse.stride, k = i % reverse.stride;
+  if (j >= reverse.frame.room.visible || j >= reverse.frame.counts->visible) return;
+  const auto used = static_cast<std::size_t>(ParameterRow::kSh) +
+                    static_cast<std::size_t>(3 * (cloud.sh_degree + 1) * (cloud.sh_degree + 1));
+  reverse.rows[i] = k < used ? *parameter(cloud, reverse.frame.visible_rows[j], k) : 0.0F;
+}
+
 std::size_t rows_of(const AdamOnDevice& adam) {
   const splat::FrameOnDevice& frame = adam.reverse.frame;
   return adam.dense ? frame.cloud.count : frame.room.visible;
@@ -137,6 +154,16 @@ std::size_t rows_of(const AdamOnDevice& adam) {
 
 std::size_t regular_parts_of(const AdamOnDevice& adam) {
   return (rows_of(adam) + kRowsPerBlock - 1) / kRowsPerBlock;
+}
+
+Status gather_rows(const core::Stream& stream, const RowsOnDevice& rows) {
+  return core::launch(stream, core::one_thread_each(rows.count * rows.words, kThreads), gather_rows_kernel,
+                      rows);
+}
+
+Status parameters_on_device(const core::Stream& stream, const ReverseOnDevice& reverse) {
+  return core::launch(stream, core::one_thread_each(reverse.frame.room.visible * reverse.stride, kThreads),
+                      parameters_kernel, reverse);
 }
 
 Status adam_on_device(const core::Stream& stream, const AdamOnDevice& adam) {

@@ -25,7 +25,9 @@ CudaTrainStep::State::State(core::VramPool& pool, const AdamOptions& options, bo
       shown(pool, "sums"),
       first(pool, "Adam's moments"),
       second(pool, "Adam's moments"),
+      moving(pool, "rows on the move"),
       steps(pool, "Adam's steps"),
+      from_rows(pool, "rows on the move"),
       decay(adam_decay(options)) {}
 
 Status CudaTrainStep::State::size_pictures(const splat::DeviceView& view, const TrainTarget& target,
@@ -110,6 +112,34 @@ Status CudaTrainStep::State::start_reverse(const core::Stream& stream) {
   EDGESPLAT_TRY_STATUS(gaussian_backward_on_device(stream, reverse));
   return sum_parts(stream, reverse.pose_parts, pose_parts_of(reverse.frame.room.visible), 6,
                    scalars.data() + kByPose);
+}
+
+Status CudaTrainStep::State::move_moments(const core::Stream& stream, std::span<const std::uint32_t> from,
+                                          std::size_t stride) {
+  // Old rows ascend, so they lie at or behind their new place: run after run, none is overwritten before it
+  // is read.
+  constexpr std::size_t kRun = std::size_t{1} << 14U;
+  const std::size_t old_rows = cloud.size();
+  EDGESPLAT_TRY_STATUS(first.grow(stream, from.size() * stride, old_rows * stride));
+  EDGESPLAT_TRY_STATUS(second.grow(stream, from.size() * stride, old_rows * stride));
+  EDGESPLAT_TRY_STATUS(steps.grow(stream, from.size(), old_rows));
+  EDGESPLAT_TRY_STATUS(moving.reserve(kRun * stride));
+  EDGESPLAT_TRY_STATUS(core::upload(stream, from, from_rows));
+  const auto move = [&](void* of, std::size_t words) -> Status {
+    auto* const rows_of = static_cast<std::uint32_t*>(of);
+    for (std::size_t begin = 0; begin < from.size(); begin += kRun) {
+      const std::size_t count = std::min(kRun, from.size() - begin);
+      EDGESPLAT_TRY_STATUS(
+          gather_rows(stream, {rows_of, from_rows.data() + begin, moving.data(), count, words}));
+      EDGESPLAT_CUDA_TRY(cudaMemcpyAsync(rows_of + begin * words, moving.data(),
+                                         count * words * sizeof(std::uint32_t), cudaMemcpyDeviceToDevice,
+                                         stream.get()));
+    }
+    return {};
+  };
+  EDGESPLAT_TRY_STATUS(move(first.data(), stride));
+  EDGESPLAT_TRY_STATUS(move(second.data(), stride));
+  return move(steps.data(), 1);
 }
 
 AdamOnDevice CudaTrainStep::State::adam_of(const TrainSettings& settings) {

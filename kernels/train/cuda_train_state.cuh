@@ -24,6 +24,9 @@ struct CudaTrainStep::State {
                              const TrainSettings& settings);
   /// From dL by the pictures to the Gaussians and the pose.
   [[nodiscard]] Status start_reverse(const core::Stream& stream);
+  /// Row i of the moments and steps becomes row from_rows[i] of those there are, see replace_cloud().
+  [[nodiscard]] Status move_moments(const core::Stream& stream, std::span<const std::uint32_t> from_rows,
+                                    std::size_t stride);
   [[nodiscard]] AdamOnDevice adam_of(const TrainSettings& settings);
 
   splat::DeviceCloud cloud;
@@ -35,7 +38,7 @@ struct CudaTrainStep::State {
   core::DeviceBuffer<double> parts, scalars;
   core::DeviceBuffer<std::uint32_t> splat_of_row, shown;
   core::DeviceBuffer<float> first, second;
-  core::DeviceBuffer<std::uint32_t> steps;
+  core::DeviceBuffer<std::uint32_t> moving, steps, from_rows;
   LossOnDevice loss{};
   ReverseOnDevice reverse{};
   AdamDecay decay;

@@ -70,6 +70,30 @@ Status CudaTrainStep::set_cloud(const core::Stream& stream, const splat::Gaussia
   return stream.synchronise();
 }
 
+Status CudaTrainStep::replace_cloud(const core::Stream& stream, const splat::GaussianSpans& gaussians,
+                                    std::span<const std::uint32_t> from_rows) {
+  State& s = *state_;
+  const std::size_t old_rows = s.cloud.size();
+  bool ascending = true;
+  std::uint32_t next = 0;
+  for (const std::uint32_t row : from_rows) {
+    if (row == kFreshRow) continue;
+    ascending = ascending && row >= next && row < old_rows;
+    next = row + 1;
+  }
+  if (from_rows.size() != gaussians.size() || !ascending ||
+      (old_rows > 0 && gaussians.sh_degree != s.cloud.sh_degree()))
+    return fail(Errc::kInvalidArgument, "an old row for each new one, ascending, of the same SH degree");
+  EDGESPLAT_TRY_STATUS(s.move_moments(stream, from_rows, ParameterRow::stride(gaussians.sh_degree)));
+  EDGESPLAT_TRY_STATUS(s.cloud.set(stream, gaussians));
+  return stream.synchronise();
+}
+
+Status CudaTrainStep::fetch_moved(const core::Stream& stream, GaussianGradients& out) {
+  EDGESPLAT_TRY_STATUS(parameters_on_device(stream, state_->reverse));
+  return fetch_gradients(stream, out);
+}
+
 Status CudaTrainStep::fetch_cloud(const core::Stream& stream, gaussian::GaussianCloud& cloud) const {
   const splat::DeviceCloud& from = state_->cloud;
   if (cloud.size() != from.size() || cloud.sh_degree != from.sh_degree() || !cloud.consistent())

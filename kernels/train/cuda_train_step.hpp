@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -60,6 +61,12 @@ class CudaTrainStep {
 
   /// Takes these Gaussians from now on, with moments of zero. Waits. kInvalidArgument (lengths), kOutOfVram.
   [[nodiscard]] Status set_cloud(const core::Stream& stream, const splat::GaussianSpans& gaussians);
+  /// Takes these Gaussians in place of those there are: row i with the moments and steps of the old row
+  /// from_rows[i], or none where that is kFreshRow. Old rows must ascend. Waits. kInvalidArgument (lengths),
+  /// kOutOfVram: then there is no cloud.
+  [[nodiscard]] Status replace_cloud(const core::Stream& stream, const splat::GaussianSpans& gaussians,
+                                     std::span<const std::uint32_t> from_rows);
+  static constexpr std::uint32_t kFreshRow = 0xFFFFFFFFU;
   /// The Gaussians as they are now into `cloud`, which must be as long as what was set. Waits.
   [[nodiscard]] Status fetch_cloud(const core::Stream& stream, gaussian::GaussianCloud& cloud) const;
 
@@ -68,6 +75,8 @@ class CudaTrainStep {
                                          const TrainTarget& target, const TrainSettings& settings);
   /// The gradients of the last step or gradients() for every Gaussian that a pixel showed. Waits.
   [[nodiscard]] Status fetch_gradients(const core::Stream& stream, GaussianGradients& out) const;
+  /// The Gaussians that the last step moved, as they are now, in place of its gradients. Waits.
+  [[nodiscard]] Status fetch_moved(const core::Stream& stream, GaussianGradients& out);
   /// Draws into `drawn`, goes back from dL by the pictures and moves nothing: for tests and for poses. Waits.
   [[nodiscard]] Status gradients(const core::Stream& stream, const splat::View& view,
                                  const splat::RenderOptions& render, const splat::BlendOutputs& drawn,

@@ -61,4 +61,17 @@ struct AdamOnDevice {
 [[nodiscard]] Status adam_on_device(const core::Stream& stream, const AdamOnDevice& adam);
 [[nodiscard]] std::size_t regular_parts_of(const AdamOnDevice& adam);
 
+/// Row i of `to` takes row from_rows[i] of `from`, or zeros where that is kNoRow.
+inline constexpr std::uint32_t kNoRow = 0xFFFFFFFFU;
+struct RowsOnDevice {
+  const std::uint32_t* from;       // [N,words] of 32 bits, whatever they hold
+  const std::uint32_t* from_rows;  // [count] u32
+  std::uint32_t* to;               // [count,words]
+  std::size_t count;
+  std::size_t words;
+};
+[[nodiscard]] Status gather_rows(const core::Stream& stream, const RowsOnDevice& rows);
+/// Overwrites each row of gradients [V,stride] with the parameters of its Gaussian.
+[[nodiscard]] Status parameters_on_device(const core::Stream& stream, const ReverseOnDevice& reverse);
+
 }  // namespace edgesplat::train

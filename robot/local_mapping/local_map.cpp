@@ -105,6 +105,8 @@ void LocalMap::add(const map::Keyframe& keyframe) {
     EDGESPLAT_LOG_WARN("local", "keyframe's picture not used", "keyframe", keyframe.id.value, "why",
                        picture.error().context);
   }
+  if (!engine_->gpu_failure().empty() && !std::exchange(told_of_gpu_, true))
+    EDGESPLAT_LOG_WARN("local", "optimising on the CPU", "why", engine_->gpu_failure());
   const bool shows = picture && picture->has_value();
   const auto added = engine_->add(keyframe, keyframe.odom_from_body, shows ? &**picture : nullptr);
   ++revision_;

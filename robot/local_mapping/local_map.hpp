@@ -77,6 +77,7 @@ class LocalMap {
   std::size_t room_;
   std::shared_ptr<const gaussian::GaussianCloud> resident_in_odom_;
   bool resident_new_ = false;                       ///< and not told to the engine yet
+  bool told_of_gpu_ = false;                        ///< that it was given up
   std::unique_ptr<mapping::MappingEngine> engine_;  ///< in LOCAL alone
   gaussian::GaussianCloud kept_;                    ///< outside LOCAL
   Eigen::Vector3f robot_in_odom_m_ = Eigen::Vector3f::Zero();

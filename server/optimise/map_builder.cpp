@@ -29,6 +29,8 @@ std::size_t MapBuilder::add(const map::Keyframe& keyframe) {
     EDGESPLAT_LOG_WARN("map", "keyframe's picture not used", "keyframe", keyframe.id.value, "why",
                        picture.error().context);
   }
+  if (!engine_->gpu_failure().empty() && !std::exchange(told_of_gpu_, true))
+    EDGESPLAT_LOG_WARN("map", "optimising on the CPU", "why", engine_->gpu_failure());
   const bool shows = picture && picture->has_value();
   const auto added = engine_->add(keyframe, keyframe.odom_from_body, shows ? &**picture : nullptr);
   if (added) {

@@ -54,6 +54,7 @@ class MapBuilder {
   std::unique_ptr<mapping::MappingEngine> engine_;
   std::vector<KeyframePose> poses_;
   std::uint64_t bad_pictures_ = 0;
+  bool told_of_gpu_ = false;  ///< that it was given up
 };
 
 }  // namespace edgesplat::optimise
