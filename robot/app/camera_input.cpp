@@ -54,15 +54,28 @@ class SocketCamera final : public CameraInput {
   frame_socket::FrameSource source_;
 };
 
+void publish_pulses(const sync::TriggerCounters& c, metrics::Registry& metrics) {
+  metrics.counter("trigger.matched").add(c.matched);
+  metrics.counter("trigger.searching").add(c.searching);
+  metrics.counter("trigger.unmatched").add(c.unmatched);
+  metrics.counter("trigger.lost_frames").add(c.lost_frames);
+  metrics.counter("trigger.missed_pulses").add(c.missed_pulses);
+  metrics.counter("trigger.slips").add(c.slips);
+  metrics.counter("trigger.locks").add(c.locks);
+}
+
 class GigeCameraInput final : public CameraInput {
  public:
-  explicit GigeCameraInput(std::unique_ptr<aravis::GigeCamera> camera) : camera_(std::move(camera)) {}
+  GigeCameraInput(std::unique_ptr<aravis::GigeCamera> camera, sync::TriggeredStamps* pulses)
+      : camera_(std::move(camera)), pulses_(pulses) {}
 
   void receive(const std::stop_token& stop, const Sink& sink, replay::Recorder* recorder) override {
     while (!stop.stop_requested()) {
       auto measurement = camera_->receive(stop, kReceiveTimeout);
       if (!measurement) continue;
-      if (recorder != nullptr) record_picture(std::get<sensor::CameraFrame>(*measurement), *recorder);
+      auto& frame = std::get<sensor::CameraFrame>(*measurement);
+      if (pulses_ != nullptr && !pulses_->stamp(frame)) continue;
+      if (recorder != nullptr) record_picture(frame, *recorder);
       sink(std::move(*measurement));
     }
   }
@@ -88,20 +101,23 @@ class GigeCameraInput final : public CameraInput {
     metrics.counter("camera.underruns").add(t.underruns);
     metrics.counter("camera.packets_resent").add(t.packets_resent);
     metrics.counter("camera.packets_missing").add(t.packets_missing);
+    if (pulses_ != nullptr) publish_pulses(pulses_->counters(), metrics);
   }
 
  private:
   std::unique_ptr<aravis::GigeCamera> camera_;
+  sync::TriggeredStamps* pulses_;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<CameraInput>> open_camera(const robot_config::CameraSettings& config,
-                                                 const sensor::CameraMount& mount, const Clock& clock) {
+                                                 const sensor::CameraMount& mount, const Clock& clock,
+                                                 sync::TriggeredStamps* pulses) {
   const int width_px = mount.model.width_px, height_px = mount.model.height_px;
   if (config.source == robot_config::CameraSource::kGige) {
     EDGESPLAT_TRY(auto camera, aravis::GigeCamera::create(config.gige, {width_px, height_px}, clock));
-    return std::make_unique<GigeCameraInput>(std::move(camera));
+    return std::make_unique<GigeCameraInput>(std::move(camera), pulses);
   }
   frame_socket::FrameClientConfig socket;
   socket.host = config.host;

@@ -8,6 +8,7 @@
 #include "common/time/clock.hpp"
 #include "robot/config/robot_config.hpp"
 #include "robot/drivers/replay/recorder.hpp"
+#include "robot/sync/triggered_stamps.hpp"
 
 #include <functional>
 #include <memory>
@@ -28,9 +29,11 @@ class CameraInput {
 };
 
 /// The camera that the configuration names. Precondition: the rig has one. kInvalidConfig for bad settings,
-/// kUnavailable where this build lacks the driver; a camera that is not there yet is no error.
+/// kUnavailable where this build lacks the driver; a camera that is not there yet is no error. `pulses`,
+/// where there are any, stamp the frames of a GigE camera whose clock is free; they must outlive the camera.
 [[nodiscard]] Result<std::unique_ptr<CameraInput>> open_camera(const robot_config::CameraSettings& config,
                                                                const sensor::CameraMount& mount,
-                                                               const Clock& clock);
+                                                               const Clock& clock,
+                                                               sync::TriggeredStamps* pulses = nullptr);
 
 }  // namespace edgesplat::app

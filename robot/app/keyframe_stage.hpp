@@ -6,9 +6,11 @@
 #include "common/time/clock.hpp"
 #include "robot/app/keyframe_album.hpp"
 #include "robot/app/run_log.hpp"
+#include "robot/config/robot_config.hpp"
 #include "robot/keyframe/coloured_map.hpp"
 #include "robot/keyframe/hold_out.hpp"
 #include "robot/keyframe/keyframe_builder.hpp"
+#include "robot/sync/camera_offset.hpp"
 
 #include <functional>
 #include <memory>
@@ -32,7 +34,7 @@ class KeyframeStage {
  public:
   using KeyframeSink = std::function<void(std::shared_ptr<const map::Keyframe>)>;
 
-  KeyframeStage(const keyframe::KeyframeConfig& config, const sensor::Rig& rig, KeyframeSink sink,
+  KeyframeStage(const robot_config::RobotConfig& config, const sensor::Rig& rig, KeyframeSink sink,
                 const Clock& work_clock, metrics::Registry& metrics);
 
   void operator()(const TrackedFrame& frame);
@@ -42,16 +44,23 @@ class KeyframeStage {
   [[nodiscard]] const keyframe::ColouredMap& coloured_map() const { return coloured_map_; }
 
  private:
+  /// Whether the picture's time can be trusted; looks at every picture.
+  [[nodiscard]] bool in_sync(const TrackedFrame& frame);
   /// Null: no keyframe at this moment.
   Result<std::shared_ptr<const map::Keyframe>> make(const TrackedFrame& frame);
 
   keyframe::KeyframeBuilder builder_;
   keyframe::HoldOut hold_out_;
+  std::optional<sync::CameraOffset> camera_offset_;
   KeyframeSink sink_;
   const Clock& work_clock_;
   metrics::Counter& made_;
   metrics::Counter& held_out_;
   metrics::Counter& failed_;
+  metrics::Counter& out_of_sync_;
+  metrics::Counter& offset_alarms_;
+  metrics::Gauge& offset_ms_;
+  metrics::Gauge& offset_sigma_ms_;
   metrics::Counter& points_;
   metrics::Histogram& keyframe_ms_;
   metrics::Histogram& latency_ms_;

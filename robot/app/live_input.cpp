@@ -5,15 +5,27 @@
 #include "common/thread/worker.hpp"
 #include "robot/app/camera_input.hpp"
 #include "robot/app/lidar_input.hpp"
+#include "robot/app/serial_input.hpp"
 
 #include <optional>
 #include <utility>
 
 namespace edgesplat::app {
+namespace {
+
+LiveInput::Sink without_imu(const LiveInput::Sink& sink) {
+  return [sink](sensor::Measurement measurement) {
+    if (!std::holds_alternative<sensor::ImuSample>(measurement)) sink(std::move(measurement));
+  };
+}
+
+}  // namespace
 
 struct LiveInput::Devices {
   std::unique_ptr<LidarInput> lidar;
-  std::unique_ptr<CameraInput> camera;  ///< null: the rig has none
+  std::optional<SerialInput> serial;
+  std::unique_ptr<sync::TriggeredStamps> pulses;  ///< null: no pulses are reported
+  std::unique_ptr<CameraInput> camera;            ///< null: the rig has none
   Sink sink;
   replay::Recorder* recorder;
 };
@@ -24,13 +36,25 @@ LiveInput::~LiveInput() = default;
 Result<std::unique_ptr<LiveInput>> LiveInput::open(const robot_config::RobotConfig& config,
                                                    const sensor::Rig& rig, const Clock& clock, Sink sink,
                                                    replay::Recorder* recorder) {
-  EDGESPLAT_TRY(auto lidar, LidarInput::open(config.livox, rig, clock, sink, recorder));
+  // With an inertial sensor of its own the LiDAR's is not heard.
+  const Sink lidar_sink = config.serial.imu ? without_imu(sink) : sink;
+  EDGESPLAT_TRY(auto lidar, LidarInput::open(config.livox, rig, clock, lidar_sink, recorder));
+  std::optional<SerialInput> serial;
+  if (config.serial.imu || config.serial.trigger) {
+    EDGESPLAT_TRY(serial, SerialInput::open(config.serial, clock));
+  }
+  std::unique_ptr<sync::TriggeredStamps> pulses;
+  if (config.serial.trigger) {
+    sync::TriggerMatcherConfig trigger;
+    trigger.period_s = config.serial.trigger_period_s;
+    pulses = std::make_unique<sync::TriggeredStamps>(trigger, 1e-6 * config.camera.gige.input_latency_us);
+  }
   std::unique_ptr<CameraInput> camera;
   if (rig.camera) {
-    EDGESPLAT_TRY(camera, open_camera(config.camera, *rig.camera, clock));
+    EDGESPLAT_TRY(camera, open_camera(config.camera, *rig.camera, clock, pulses.get()));
   }
-  auto devices =
-      std::make_unique<Devices>(Devices{std::move(lidar), std::move(camera), std::move(sink), recorder});
+  auto devices = std::make_unique<Devices>(Devices{std::move(lidar), std::move(serial), std::move(pulses),
+                                                   std::move(camera), std::move(sink), recorder});
   return std::unique_ptr<LiveInput>(new LiveInput(std::move(devices)));
 }
 
@@ -42,16 +66,25 @@ void LiveInput::run(const std::stop_token& stop) {
       return false;
     }));
   }
+  std::optional<thread::Worker> serial;
+  if (devices_->serial) {
+    serial.emplace(thread::Worker("serial", [this, &stop](const std::stop_token&) {
+      devices_->serial->receive(stop, devices_->sink, devices_->pulses.get());
+      return false;
+    }));
+  }
   thread::Worker lidar("lidar", [this, &stop](const std::stop_token&) {
     devices_->lidar->run(stop);
     return false;
   });
   lidar.join();
   if (camera) camera->join();
+  if (serial) serial->join();
 }
 
 void LiveInput::publish_counters(metrics::Registry& metrics) const {
   devices_->lidar->publish_counters(metrics);
+  if (devices_->serial) devices_->serial->publish_counters(metrics);
   if (devices_->camera) devices_->camera->publish_counters(metrics);
 }
 

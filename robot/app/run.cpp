@@ -10,6 +10,7 @@
 #include "robot/app/picture_log.hpp"
 #include "robot/app/pipeline.hpp"
 #include "robot/app/progress.hpp"
+#include "robot/app/ptp_watch.hpp"
 #include "robot/app/recording.hpp"
 #include "robot/app/render_loop.hpp"
 #include "robot/app/replay_input.hpp"
@@ -53,6 +54,9 @@ Result<sensor::Rig> load_rig(const Options& o, const std::optional<replay::Repla
 Status run_sensors(const Options& o, const robot_config::RobotConfig& config, const sensor::Rig& rig,
                    const Clock& clock, const LiveInput::Sink& sink, metrics::Registry& metrics,
                    const std::stop_token& stop) {
+  if (!o.record.empty() && config.serial.imu)
+    return fail(Errc::kInvalidConfig,
+                "--record cannot keep the samples of a serial inertial sensor: run without one of the two");
   std::unique_ptr<Recording> recording;
   if (!o.record.empty()) {
     replay::RecorderConfig recorder;
@@ -62,6 +66,8 @@ Status run_sensors(const Options& o, const robot_config::RobotConfig& config, co
     EDGESPLAT_TRY(recording,
                   Recording::start(o.record, config::to_toml(rig), config::to_toml(config), recorder));
   }
+  std::optional<PtpWatch> ptp;
+  if (config.ptp.watch) ptp.emplace(config.ptp, metrics);
   EDGESPLAT_TRY(const auto input,
                 LiveInput::open(config, rig, clock, sink, recording ? recording->recorder() : nullptr));
   input->run(stop);

@@ -4,10 +4,31 @@
 
 #include "common/log/log.hpp"
 
+#include <string>
 #include <utility>
 
 namespace edgesplat::app {
 namespace {
+
+void publish_clocks(const sync::GroupBuilder& builder, metrics::Registry& metrics) {
+  const std::pair<const char*, sync::Stream> streams[] = {
+      {"points", sync::Stream::kPoints}, {"imu", sync::Stream::kImu}, {"camera", sync::Stream::kCamera}};
+  for (const auto& [name, stream] : streams) {
+    const auto clock = builder.clock_state(stream);
+    if (!clock) continue;
+    const std::string prefix = std::string("sync.") + name;
+    metrics.gauge(prefix + ".disciplined").set(clock->exact ? 1.0 : 0.0);
+    metrics.gauge(prefix + ".offset_s").set(clock->offset_s);
+    metrics.gauge(prefix + ".drift_ppm").set(clock->drift_ppm);
+    metrics.gauge(prefix + ".jitter_us").set(1e6 * clock->jitter_s);
+  }
+}
+
+sync::GroupBuilderConfig with_clocks(const robot_config::RobotConfig& config) {
+  sync::GroupBuilderConfig sync = config.sync;
+  sync.imu_has_own_clock = config.serial.imu;
+  return sync;
+}
 
 std::vector<ReadyGroup> stamp_groups(std::vector<sync::MeasureGroup> groups, HostTime now) {
   std::vector<ReadyGroup> ready;
@@ -32,14 +53,27 @@ SensingChain::SensingChain(const robot_config::RobotConfig& config, const sensor
                            std::unique_ptr<tracking::Tracker> tracker, KeyframeStage::KeyframeSink sink,
                            const Clock& work_clock, metrics::Registry& metrics)
     : work_clock_(work_clock),
-      group_builder_(config.sync, rig),
+      group_builder_(with_clocks(config), rig),
       tracker_(std::move(tracker)),
-      keyframe_stage_(config.keyframe, rig, std::move(sink), work_clock, metrics),
+      keyframe_stage_(config, rig, std::move(sink), work_clock, metrics),
       track_ms_(metrics.histogram("tracking.group_ms")),
       refused_groups_(metrics.counter("tracking.refused_groups")) {}
 
 std::vector<ReadyGroup> SensingChain::sync(sensor::Measurement measurement) {
-  return stamp_groups(group_builder_.push(std::move(measurement)), work_clock_.now());
+  auto groups = group_builder_.push(std::move(measurement));
+  if (!groups.empty()) watch_clocks();
+  return stamp_groups(std::move(groups), work_clock_.now());
+}
+
+/// One line for each clock that turned out wrong.
+void SensingChain::watch_clocks() {
+  const sync::GroupCounters counters = group_builder_.counters();
+  if (counters.clock_lies > clock_lies_) {
+    EDGESPLAT_LOG_WARN("sync",
+                       "a clock that says it is disciplined drifts: its stamps are fitted from now on",
+                       "lies", counters.clock_lies);
+  }
+  clock_lies_ = counters.clock_lies;
 }
 
 std::vector<ReadyGroup> SensingChain::flush() {
@@ -83,8 +117,10 @@ void SensingChain::publish_counters(metrics::Registry& metrics) const {
       {"sync.late_scans", s.late_scans},
       {"sync.bad_values", s.bad_values},
       {"sync.clock_changes", s.clock_changes},
+      {"sync.clock_lies", s.clock_lies},
   };
   for (const auto& [name, value] : counted) metrics.counter(name).add(value);
+  publish_clocks(group_builder_, metrics);
   const tracking::TrackingCounters t = tracker_->counters();
   const std::pair<const char*, std::int64_t> tracked[] = {
       {"tracking.groups", t.groups},

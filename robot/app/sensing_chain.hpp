@@ -45,10 +45,13 @@ class SensingChain {
                std::unique_ptr<tracking::Tracker> tracker, KeyframeStage::KeyframeSink sink,
                const Clock& work_clock, metrics::Registry& metrics);
 
+  void watch_clocks();
+
   const Clock& work_clock_;
   sync::GroupBuilder group_builder_;
   std::unique_ptr<tracking::Tracker> tracker_;
   KeyframeStage keyframe_stage_;
+  std::uint64_t clock_lies_ = 0;  ///< said so far
   metrics::Histogram& track_ms_;
   metrics::Counter& refused_groups_;
 };

@@ -43,6 +43,23 @@ void describe_camera(ConfigReader& reader, CameraSettings& c) {
   reader.table("gige", "the GigE Vision camera", [&] { describe(reader, c.gige); });
 }
 
+void describe_serial(ConfigReader& reader, SerialSettings& c) {
+  reader.field("imu", c.imu, "inertial samples from this line instead of the LiDAR's");
+  reader.field("trigger", c.trigger, "trigger pulses from this line stamp a camera whose clock is free");
+  reader.field("trigger_period_s", c.trigger_period_s, Range{0.001, 10.0}, "between two pulses");
+  reader.field("path", c.port.path, "the serial device");
+  reader.field("baud", c.port.baud, {9600, 1000000}, "a rate that serial lines have");
+  reader.field("silence_s", c.port.silence_s, Range{0.05, 60.0}, "no byte this long: opened anew");
+}
+
+void describe_ptp(ConfigReader& reader, PtpSettings& c) {
+  reader.field("watch", c.watch, "ask ptp4l of this machine how PTP is");
+  reader.field("program", c.program, "linuxptp's pmc");
+  reader.field("period_s", c.period_s, Range{0.1, 600.0}, "between two questions");
+  reader.field("offset_limit_us", c.offset_limit_us, Range{0.1, 1e6},
+               "from the master, where this machine is a slave");
+}
+
 void describe_sync(ConfigReader& reader, sync::GroupBuilderConfig& c) {
   reader.field("period_s", c.period_s, Range{0.01, 1.0}, "cut this often where no image tells when");
   reader.field("image_gap_s", c.image_gap_s, Range{0.05, 5.0},
@@ -52,6 +69,14 @@ void describe_sync(ConfigReader& reader, sync::GroupBuilderConfig& c) {
                "LiDAR or IMU silent this long: go on without");
   reader.field("image_tolerance_s", c.image_tolerance_s, Range{0.0, 0.1},
                "between a whole scan and its image");
+  reader.field("disagree_limit_s", c.disagree_limit_s, Range{1e-5, 0.1},
+               "two disciplined clocks further apart: one of them lies");
+}
+
+void describe_camera_offset(ConfigReader& reader, sync::CameraOffset::Config& c) {
+  reader.field("limit_s", c.limit_s, Range{0.0, 0.05},
+               "pictures further off LiDAR and IMU colour no points; 0 = not looked at");
+  reader.field("window_s", c.window_s, Range{5.0, 120.0}, "what an estimate is made of");
 }
 
 void describe_uplink(ConfigReader& reader, uplink::UplinkConfig& c) {
@@ -130,7 +155,12 @@ void describe_server(ConfigReader& reader, ServerLink& c) {
 void describe(ConfigReader& reader, RobotConfig& c) {
   reader.table("livox", "the LiDAR", [&] { describe_livox(reader, c.livox); });
   reader.table("camera", "the camera", [&] { describe_camera(reader, c.camera); });
+  reader.table("serial", "an inertial sensor or trigger pulses on a serial line",
+               [&] { describe_serial(reader, c.serial); });
+  reader.table("ptp", "the watch over PTP on this machine", [&] { describe_ptp(reader, c.ptp); });
   reader.table("sync", "measurements to groups", [&] { describe_sync(reader, c.sync); });
+  reader.table("camera_offset", "a check of the camera's stamps by what it sees",
+               [&] { describe_camera_offset(reader, c.camera_offset); });
   reader.table("tracking", "groups to poses", [&] { describe(reader, c.tracking); });
   reader.table("keyframe", "poses and pictures to keyframes", [&] { describe(reader, c.keyframe); });
   reader.table("uplink", "keyframes to the server", [&] { describe_uplink(reader, c.uplink); });

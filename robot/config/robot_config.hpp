@@ -7,9 +7,11 @@
 #include "common/policy/offload_policy.hpp"
 #include "robot/drivers/aravis/camera_config.hpp"
 #include "robot/drivers/livox/lidar_driver.hpp"
+#include "robot/drivers/serial_imu/serial_port.hpp"
 #include "robot/keyframe/keyframe_config.hpp"
 #include "robot/local_mapping/local_mapping_config.hpp"
 #include "robot/map/resident_map.hpp"
+#include "robot/sync/camera_offset.hpp"
 #include "robot/sync/group_builder.hpp"
 #include "robot/tracking/tracking_config.hpp"
 #include "robot/uplink/uplink.hpp"
@@ -43,6 +45,22 @@ struct CameraSettings {
   std::string host = "127.0.0.1";
   std::uint16_t port = 57400;
   aravis::GigeCameraConfig gige;
+};
+
+/// A serial line to an inertial sensor or to the microcontroller that makes trigger pulses.
+struct SerialSettings {
+  bool imu = false;      ///< its inertial samples instead of the LiDAR's
+  bool trigger = false;  ///< its trigger pulses stamp a camera whose clock is free
+  double trigger_period_s = 0.1;
+  serial_imu::SerialPortConfig port;
+};
+
+/// The watch over PTP on this machine (linuxptp).
+struct PtpSettings {
+  bool watch = false;
+  std::string program = "pmc";
+  double period_s = 2.0;
+  double offset_limit_us = 10.0;  ///< from the master, where this machine is a slave
 };
 
 /// Of `--record`.
@@ -89,7 +107,10 @@ struct ServerLink {
 struct RobotConfig {
   LivoxSettings livox;
   CameraSettings camera;
+  SerialSettings serial;
+  PtpSettings ptp;
   sync::GroupBuilderConfig sync;
+  sync::CameraOffset::Config camera_offset;
   tracking::TrackingConfig tracking;
   keyframe::KeyframeConfig keyframe;
   uplink::UplinkConfig uplink = budgeted_uplink();

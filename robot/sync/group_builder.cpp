@@ -21,6 +21,10 @@ std::vector<MeasureGroup> GroupBuilder::flush() {
   return stages_->drain(true);
 }
 
+std::optional<TimeBase::ClockState> GroupBuilder::clock_state(Stream stream) const {
+  return stages_->time_base().clock_state(stream);
+}
+
 GroupCounters GroupBuilder::counters() const {
   return stages_->counters();
 }

@@ -6,10 +6,12 @@
 #include "common/sensor/rig.hpp"
 #include "common/time/clock_map.hpp"
 #include "robot/sync/measure_group.hpp"
+#include "robot/sync/time_base.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace edgesplat::sync {
@@ -19,7 +21,9 @@ struct GroupBuilderConfig {
   double image_gap_s = 0.3;   ///< images further apart than this: periodic cuts in between, [0.05, 5]
   double image_wait_s = 0.1;  ///< how far an image may lag behind the points before it is missed, [0, 1]
   double sensor_gap_s = 0.5;  ///< LiDAR or IMU silent for this long: go on without it, [0.05, 5]
-  double image_tolerance_s = 0.02;     ///< between a whole scan and its image, [0, 0.1]
+  double image_tolerance_s = 0.02;   ///< between a whole scan and its image, [0, 0.1]
+  double disagree_limit_s = 0.5e-3;  ///< two disciplined clocks further apart: one of them lies, [1e-5, 0.1]
+  bool imu_has_own_clock = false;    ///< it is not the LiDAR's
   std::size_t max_points = 1'000'000;  ///< 5 s of a Mid-360, 24 MB
   std::size_t max_imu_samples = 5'000;
   std::size_t max_images = 32;
@@ -45,6 +49,7 @@ struct GroupCounters {
   std::uint64_t late_scans = 0;
   std::uint64_t bad_values = 0;     ///< measurements that are not finite or without content
   std::uint64_t clock_changes = 0;  ///< a device's clock jumped or got another source
+  std::uint64_t clock_lies = 0;     ///< a clock said it was disciplined and drifted: fitted from then on
 };
 
 /// Measurements in arrival order to groups in time order. Cuts at the middle of each exposure while the rig's
@@ -66,6 +71,8 @@ class GroupBuilder {
   /// At the end of a recording: everything still buffered.
   [[nodiscard]] std::vector<MeasureGroup> flush();
   [[nodiscard]] GroupCounters counters() const;
+  /// What is known of a stream's clock; nothing before its first message.
+  [[nodiscard]] std::optional<TimeBase::ClockState> clock_state(Stream stream) const;
 
  private:
   class Stages;

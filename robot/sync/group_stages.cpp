@@ -18,7 +18,7 @@ GroupBuilder::Stages::Stages(const GroupBuilderConfig& config, const sensor::Rig
     : config_(config),
       has_imu_(rig.imu.has_value()),
       has_camera_(rig.camera.has_value()),
-      time_base_(config.clock),
+      time_base_(config.clock, config.disagree_limit_s, config.imu_has_own_clock),
       points_(config.max_points),
       imu_(config.max_imu_samples),
       images_(config.max_images, config.max_image_bytes),
@@ -219,6 +219,7 @@ GroupCounters GroupBuilder::Stages::counters() const {
   all.overflow_imu = imu_.overflow();
   all.overflow_images = images_.overflow();
   all.clock_changes = time_base_.clock_changes();
+  all.clock_lies = time_base_.lies();
   return all;
 }
 

@@ -31,6 +31,7 @@ class GroupBuilder::Stages {
   /// Groups that can leave now; `all`: nothing more will come.
   [[nodiscard]] std::vector<MeasureGroup> drain(bool all);
   [[nodiscard]] GroupCounters counters() const;
+  [[nodiscard]] const TimeBase& time_base() const { return time_base_; }
 
  private:
   void take_in(const sensor::ImuSample& sample);

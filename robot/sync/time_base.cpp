@@ -2,10 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/sync/time_base.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace edgesplat::sync {
 namespace {
 
-constexpr int kStraysForJump = 5;  // one message that hung in the network is no jump of the clock
+constexpr double kSpan_ns = 5e9;       // long enough to see about the least latency
+constexpr double kScatterShare = 0.5;  // of mean lateness: the least of a span may be this far off
+constexpr int kStraysForJump = 5;      // one message that hung in the network is no jump of the clock
+
+/// Of numbers that come from outside: may wrap, is never undefined.
+std::int64_t difference(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
+}
 
 bool is_disciplined(sensor::StampSource source) {
   return source != sensor::StampSource::kFreeRunning;
@@ -19,7 +29,8 @@ ClockMapConfig watching(ClockMapConfig config) {
 
 }  // namespace
 
-TimeBase::TimeBase(const ClockMapConfig& config) : config_(config) {}
+TimeBase::TimeBase(const ClockMapConfig& config, double disagree_limit_s, bool imu_has_own_clock)
+    : config_(config), disagree_limit_ns_(disagree_limit_s * 1e9), imu_has_own_clock_(imu_has_own_clock) {}
 
 HostTime TimeBase::to_host(Stream stream, SensorTime stamp, HostTime arrival, sensor::StampSource source) {
   if (base_ == Base::kUndecided) base_ = is_disciplined(source) ? Base::kStamps : Base::kArrivals;
@@ -32,7 +43,8 @@ HostTime TimeBase::to_host(Stream stream, SensorTime stamp, HostTime arrival, se
   if (d.exact) return host_time_from_ns(to_ns(stamp));
   // One relation for the one clock: the points teach it more often than the IMU does.
   const Device& points = device(Stream::kPoints);
-  const bool share = stream == Stream::kImu && points.learnt && !points.exact && points.source == d.source;
+  const bool share = stream == Stream::kImu && !imu_has_own_clock_ && points.learnt && !points.exact &&
+                     points.source == d.source;
   return share ? points.map.to_host(stamp) : d.map.to_host(stamp);
 }
 
@@ -56,6 +68,7 @@ void TimeBase::change_source(Stream stream, sensor::StampSource source) {
   d.source = source;
   d.exact = base_ == Base::kStamps && is_disciplined(source) && !d.jumped;
   d.learnt = false;
+  d.least = {};
   d.map = ClockMap(d.exact ? watching(config_) : config_);
   if (d.exact && !reference_) reference_ = stream;
 }
@@ -65,25 +78,95 @@ void TimeBase::watch_exact(Stream stream, SensorTime stamp, HostTime arrival) {
   const bool stray = d.learnt && stamp < d.newest - std::chrono::seconds(1);
   d.strays = stray ? d.strays + 1 : 0;
   if (stray && d.strays < kStraysForJump) return;
-  d.newest = stamp;
-  d.map.observe(stamp, arrival);
+  observe(d, stamp, arrival);
   if (d.map.resets() > 0) {
-    ++clock_changes_;
-    d.exact = false;
-    d.jumped = true;
-    d.learnt = false;
-    d.map = ClockMap(config_);
+    fit_from_now(d);
     return;
   }
+  if (reference_ == stream) {
+    arrival_minus_base_ns_ = offset_ns(d);
+    look_for_lies();
+  }
+}
+
+/// A disciplined clock that cannot be believed: what is exact from here on is the others.
+void TimeBase::fit_from_now(Device& d) {
+  ++clock_changes_;
+  d.exact = false;
+  d.jumped = true;
+  d.learnt = false;
+  d.least = {};
+  d.map = ClockMap(config_);
+  if (reference_ && !device(*reference_).exact) {
+    for (const Stream other : {Stream::kPoints, Stream::kImu, Stream::kCamera})
+      if (device(other).exact && device(other).learnt) reference_ = other;
+  }
+}
+
+std::int64_t TimeBase::offset_ns(const Device& d) {
+  return difference(to_ns(d.map.to_host(d.newest)), to_ns(d.newest));
+}
+
+/// Against the host's clock, since it was first known.
+double TimeBase::moved_ns(const Device& d) {
+  return static_cast<double>(difference(*d.least.newest_ns, *d.least.first_ns));
+}
+
+void TimeBase::look_for_lies() {
+  Device* reference = &device(*reference_);
+  for (Device& d : devices_) {
+    if (&d == reference || !d.exact || !d.least.newest_ns || !reference->least.newest_ns) continue;
+    const double scatter_ns = 1e9 * kScatterShare * std::max(d.jitter_s, reference->jitter_s);
+    if (std::abs(moved_ns(d) - moved_ns(*reference)) <= std::max(disagree_limit_ns_, scatter_ns)) continue;
+    ++lies_;
+    fit_from_now(std::abs(moved_ns(d)) > std::abs(moved_ns(*reference)) ? d : *reference);
+    return;
+  }
+}
+
+void TimeBase::observe(Device& d, SensorTime stamp, HostTime arrival) {
+  const std::int64_t resets = d.map.resets();
+  d.map.observe(stamp, arrival);
+  d.least.observe(stamp, difference(to_ns(arrival), to_ns(stamp)), !d.learnt || d.map.resets() != resets);
+  d.newest = stamp;
   d.learnt = true;
-  if (reference_ == stream) arrival_minus_base_ns_ = to_ns(d.map.to_host(stamp)) - to_ns(stamp);
+  const double late_s = 1e-9 * static_cast<double>(difference(to_ns(arrival), to_ns(d.map.to_host(stamp))));
+  constexpr double kSmoothing = 0.02;
+  d.jitter_s += kSmoothing * (std::clamp(late_s, 0.0, 1.0) - d.jitter_s);
+}
+
+double TimeBase::LeastDelay::drift_ppm() const {
+  const auto passed_ns = static_cast<double>(difference(to_ns(newest_end), to_ns(first_end)));
+  if (!newest_ns || passed_ns <= 0.0) return 0.0;
+  return -1e6 * static_cast<double>(difference(*newest_ns, *first_ns)) / passed_ns;
+}
+
+void TimeBase::LeastDelay::observe(SensorTime stamp, std::int64_t delay_ns, bool restart) {
+  if (restart) *this = {stamp, delay_ns, std::nullopt, std::nullopt, {}, {}};
+  running_ns = std::min(running_ns, delay_ns);
+  if (static_cast<double>(difference(to_ns(stamp), to_ns(began))) < kSpan_ns) return;
+  if (!first_ns) {
+    first_ns = running_ns;
+    first_end = stamp;
+  }
+  newest_ns = running_ns;
+  newest_end = stamp;
+  began = stamp;
+  running_ns = delay_ns;
+}
+
+std::optional<TimeBase::ClockState> TimeBase::clock_state(Stream stream) const {
+  const Device& d = device(stream);
+  if (!d.learnt) return std::nullopt;
+  std::int64_t offset = offset_ns(d);
+  if (d.exact && arrival_minus_base_ns_) offset = difference(offset, *arrival_minus_base_ns_);
+  return ClockState{d.exact, static_cast<double>(offset) * 1e-9, d.least.drift_ppm(), d.jitter_s};
 }
 
 void TimeBase::learn(Device& d, SensorTime stamp, HostTime arrival) {
   const bool shift = base_ == Base::kStamps;
   if (shift && !arrival_minus_base_ns_) return;  // no disciplined arrival yet: nothing to relate to
-  d.map.observe(stamp, shift ? arrival - nanoseconds(*arrival_minus_base_ns_) : arrival);
-  d.learnt = true;
+  observe(d, stamp, shift ? arrival - nanoseconds(*arrival_minus_base_ns_) : arrival);
 }
 
 }  // namespace edgesplat::sync

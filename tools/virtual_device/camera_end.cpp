@@ -36,9 +36,11 @@ class SocketEnd final : public CameraEnd {
 
 class GigeEnd final : public CameraEnd {
  public:
-  explicit GigeEnd(std::unique_ptr<GigePlayer> player) : player_(std::move(player)) {}
+  GigeEnd(std::unique_ptr<GigePlayer> player, double loss) : player_(std::move(player)), loss_(loss) {}
   bool wait_for_robot(std::chrono::milliseconds timeout, const std::stop_token& stop) override {
-    return player_->camera().wait_for_robot(timeout, stop);
+    const bool came = player_->camera().wait_for_robot(timeout, stop);
+    player_->camera().set_faults({.loss = loss_});  // in mid-run: setting up a camera takes 100 commands
+    return came;
   }
   void push(const FrameMessage& frame, std::vector<std::byte> encoded) override {
     player_->push(frame, std::move(encoded));
@@ -55,6 +57,7 @@ class GigeEnd final : public CameraEnd {
 
  private:
   std::unique_ptr<GigePlayer> player_;
+  double loss_;
 };
 
 // What a recording's camera is, from its first picture.
@@ -96,8 +99,7 @@ Result<std::unique_ptr<CameraEnd>> open_camera(const StreamOptions& options, con
   gige.seed = options.seed;
   EDGESPLAT_TRY(auto player, GigePlayer::open(gige, clock));
   player->camera().set_ptp(first.ptp);
-  player->camera().set_faults({.loss = options.gige_loss});
-  return std::make_unique<GigeEnd>(std::move(player));
+  return std::make_unique<GigeEnd>(std::move(player), options.gige_loss);
 }
 
 }  // namespace edgesplat::virtual_device

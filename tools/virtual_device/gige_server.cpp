@@ -23,7 +23,8 @@ namespace {
 constexpr std::size_t kWaitingExposures = 4;
 constexpr int kHeartbeatCheck_ms = 100;
 constexpr std::size_t kBurstBytes = std::size_t{32} << 10U;  // sent at once before the pace is looked at
-constexpr std::uint32_t kMostResent = 4096;                  // packets for one request
+constexpr auto kLinger = std::chrono::milliseconds(300);
+constexpr std::uint32_t kMostResent = 4096;  // packets for one request
 
 sockaddr_in address_of(GigePeer peer) {
   sockaddr_in out{};
@@ -82,9 +83,18 @@ void GigeServer::finish() {
   queue_.close();
   if (stream_worker_) stream_worker_->join();
   if (control_worker_) {
+    if (frames_sent_ > 0) linger();
     control_worker_->request_stop();
     control_worker_->join();
+    control_worker_.reset();
   }
+}
+
+/// The last frame's lost packets may still be asked for.
+void GigeServer::linger() {
+  Pacer pacer(1.0);
+  (void)pacer.wait_for(HostTime{}, {});
+  (void)pacer.wait_for(HostTime{} + kLinger, {});
 }
 
 bool GigeServer::control_step(const std::stop_token& stop) {

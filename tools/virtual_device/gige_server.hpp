@@ -77,6 +77,7 @@ class GigeServer {
 
  private:
   GigeServer(const GigeServerOptions& options, UniqueFd control, UniqueFd stream, const Clock& clock);
+  void linger();
   bool control_step(const std::stop_token& stop);
   void on_command(std::span<const std::byte> datagram, GigePeer from);
   void serve_effects();

@@ -27,7 +27,7 @@ struct StreamOptions {
   CameraKind camera = CameraKind::kFrameSocket;
   std::uint16_t frame_port = 57400;        ///< kFrameSocket: TCP, on this host; the robot connects
   GigeServerOptions gige;                  ///< kGige; the model's size comes from the recording
-  double gige_loss = 0.0;                  ///< share of the camera's packets lost, [0, 1]
+  double gige_loss = 0.0;                  ///< share of the camera's packets lost once the robot came, [0, 1]
   double speed = 1.0;                      ///< (0, 100]
   double wait_for_camera_s = 10.0;         ///< for the robot to connect, [0, 3600]; then without
   FaultInjector::Rates faults;             ///< of the datagrams

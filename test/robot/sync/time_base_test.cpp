@@ -75,6 +75,17 @@ TEST(TimeBase, ADeviceThatGetsDisciplinedLaterKeepsTheLine) {
   EXPECT_EQ(base.clock_changes(), 1U);
 }
 
+TEST(TimeBase, AnImuWithItsOwnClockIsFittedByItself) {
+  TimeBase base({}, 0.5e-3, true);
+  for (std::int64_t i = 1; i < 400; ++i) {
+    const HostTime arrival = host_time_from_ns(9'000 * kMs + i * 5 * kMs);
+    (void)base.to_host(Stream::kPoints, sensor_time_from_ns(i * 5 * kMs), arrival, StampSource::kFreeRunning);
+    const auto sample = base.to_host(Stream::kImu, sensor_time_from_ns(777'000 * kMs + i * 5 * kMs), arrival,
+                                     StampSource::kFreeRunning);
+    EXPECT_EQ(sample, arrival);
+  }
+}
+
 TEST(TimeBase, UnknownArrivalsTeachNothing) {
   TimeBase base({});
   for (std::int64_t i = 0; i < 10; ++i)

@@ -34,6 +34,7 @@ for command in setup test demo bench; do
   expect "$command with an unknown option" 2 "$root/tools/$command" --no-such-option
 done
 expect "demo with a bad length" 2 "$root/tools/demo" --seconds soon
+expect "demo live from a recording" 2 "$root/tools/demo" --live --input a.mcap
 expect "demo with a bad offload setting" 2 "$root/tools/demo" --offload perhaps
 expect "demo with a bad link" 2 "$root/tools/demo" --link narrow
 expect "bench without anything to measure" 2 "$root/tools/bench"
