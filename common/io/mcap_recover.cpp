@@ -36,8 +36,8 @@ Result<ChunkIndex> index_chunk(const ByteSource& source, const ChunkPlace& place
   EDGESPLAT_TRY(const auto start, source.read(place.offset + kPrefixBytes, content));
   EDGESPLAT_TRY(const auto prefix, mcap::read_chunk_prefix(start));
   ChunkIndex index;
-  index.first_log_time_ns = prefix.header.first_log_time_ns;
-  index.last_log_time_ns = prefix.header.last_log_time_ns;
+  index.first_log_time_ns = static_cast<std::uint64_t>(to_ns(place.first_log_time));  // as its messages say
+  index.last_log_time_ns = static_cast<std::uint64_t>(to_ns(place.last_log_time));
   index.chunk_offset = place.offset;
   index.chunk_length = place.length;
   index.compression = prefix.header.compression;
@@ -99,11 +99,14 @@ Result<Repair> plan_repair(const ByteSource& source, const mcap::Index& found) {
   repair.summary.attachments = found.attachments;
   repair.summary.metadata = found.metadata;
   repair.summary.statistics = found.statistics;
+  repair.summary.statistics.chunk_count = 0;
   for (const auto& one : found.attachments)
     repair.keep_bytes = std::max(repair.keep_bytes, one.offset + one.length);
   for (const auto& one : found.metadata)
     repair.keep_bytes = std::max(repair.keep_bytes, one.offset + one.length);
-  for (const ChunkPlace& place : found.chunks) {
+  for (ChunkPlace place : found.chunks) {
+    // Messages of a channel that nobody defined stay where they are; no index leads to them.
+    std::erase_if(place.channels, [&](McapChannelId id) { return !found.channels.contains(id); });
     if (place.is_bare)
       return fail(
           Errc::kInvalidArgument,
@@ -119,7 +122,10 @@ Result<Repair> plan_repair(const ByteSource& source, const mcap::Index& found) {
         repair.message_indexes.clear();
       }
     }
+    std::erase_if(index.message_index_offsets,
+                  [&](const auto& entry) { return !found.channels.contains(entry.first); });
     repair.summary.chunks.push_back(std::move(index));
+    ++repair.summary.statistics.chunk_count;
   }
   return repair;
 }
