@@ -192,7 +192,10 @@ TEST_F(LiveRun, DiskThatFillsUpCostsTheRestOfTheRecordingOnly) {
   EXPECT_NE(replayed.err.find("recording incomplete"), std::string::npos) << replayed.err;
   std::string again = text_of(in_folder("again/robot/trajectory.tum"));
   EXPECT_GT(std::count(again.begin(), again.end(), '\n'), 5);
-  again.resize(again.rfind('\n', again.size() - 2) + 1);  // the last group ends where the file does
+  // The last groups end where the file does, which may hold points of 0.3 s after its last picture.
+  const auto drop_last_line = [&again] { again.resize(again.rfind('\n', again.size() - 2) + 1); };
+  drop_last_line();
+  for (int group = 0; group < 3 && poses.substr(0, again.size()) != again; ++group) drop_last_line();
   if (kMustKeepUp || count > 50) {
     EXPECT_EQ(poses.substr(0, again.size()), again);
   }

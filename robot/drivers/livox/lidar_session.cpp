@@ -74,9 +74,12 @@ void LidarSession::tell(LidarEventKind kind, std::string detail) {
 
 bool LidarSession::is_wanted(const std::string& serial_number, const Ipv4& ip) {
   // SDK1 announces the serial number and one character more: both may be configured.
+  const bool is_named =
+      serial_number.starts_with(config_.serial_number) &&
+      serial_number.size() - config_.serial_number.size() <= std::size_t{config_.serial_number.size() == 14};
   const bool wanted = config_.serial_number.empty()
                           ? !unit_ || unit_->serial_number.empty() || unit_->serial_number == serial_number
-                          : serial_number.starts_with(config_.serial_number);
+                          : is_named;
   if (wanted) return true;
   const bool told = std::find(foreign_.begin(), foreign_.end(), serial_number) != foreign_.end();
   if (!told && foreign_.size() < kForeignRemembered) {

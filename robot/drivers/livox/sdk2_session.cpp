@@ -202,7 +202,8 @@ void Sdk2Session::on_parameters(const ParameterReply& reply, HostTime now) {
     unit_->serial_number = serial_number;
   }
   if (found_.firmware_type == kLoader) {
-    tell(LidarEventKind::kNoFirmware, unit_->serial_number + " runs its loader: load its firmware again");
+    if (!std::exchange(told_no_firmware_, true))
+      tell(LidarEventKind::kNoFirmware, unit_->serial_number + " runs its loader: load its firmware again");
     search_from(now + kRetryLater);
     return;
   }
@@ -252,6 +253,7 @@ void Sdk2Session::start(HostTime now) {
 
 void Sdk2Session::begin_sampling(HostTime now) {
   phase_ = Phase::kSampling;
+  told_no_firmware_ = false;
   if (!watch_.silent()) rearm_pause_ = 1s;
   next_rearm_ = now + rearm_pause_;
   note_sampling(now);

@@ -51,7 +51,8 @@ class Sdk2Session final : public LidarSession {
   HostTime next_rearm_ = HostTime::max();  ///< kSampling, while silent
   nanoseconds rearm_pause_ = std::chrono::seconds(1);
   bool was_rebooted_ = false;  ///< to take a setting: once
-  Sdk2Report found_;           ///< by the last bring-up
+  bool told_no_firmware_ = false;
+  Sdk2Report found_;  ///< by the last bring-up
   std::string last_faults_;
 };
 

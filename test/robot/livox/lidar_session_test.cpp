@@ -3,9 +3,11 @@
 // Both sessions against virtual units that share no code with them, in virtual time.
 #include "robot/drivers/livox/sdk1_session.hpp"
 #include "robot/drivers/livox/sdk2_session.hpp"
+#include "test/robot/livox/hex.hpp"
 #include "test/robot/livox/virtual_wire.hpp"
 #include "tools/virtual_device/sdk1_unit.hpp"
 #include "tools/virtual_device/sdk2_unit.hpp"
+#include "tools/virtual_device/sdk2_wire.hpp"
 
 #include <gtest/gtest.h>
 
@@ -252,10 +254,75 @@ TEST_P(LidarSessionTest, DamagedFramesAreCountedAndChangeNothing) {
   EXPECT_EQ(wire_->count(Kind::kSilent), 0U);
 }
 
+TEST_P(LidarSessionTest, APartOfASerialNumberIsNotThatUnit) {
+  LidarSessionConfig config = session_config(GetParam());
+  config.serial_number = "47MTEST00000";
+  set_up(config, unit_config());
+  wire_->run(5.0);
+  EXPECT_EQ(wire_->count(Kind::kFound), 0U);
+  EXPECT_EQ(wire_->count(Kind::kForeign), 1U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Models, LidarSessionTest, testing::Values(Model::kMid360, Model::kAvia),
                          [](const testing::TestParamInfo<Model>& model) {
                            return model.param == Model::kMid360 ? "Mid360" : "Avia";
                          });
+
+/// An answer of a unit to this request.
+std::vector<std::byte> answer_to(const std::vector<std::byte>& request, std::string_view content_hex) {
+  const auto asked = virtual_device::parse_sdk2_request(request);
+  EXPECT_TRUE(asked.has_value());
+  return virtual_device::make_sdk2_frame(asked->sequence, asked->command, virtual_device::Sdk2Kind::kAck,
+                                         from_hex(content_hex));
+}
+
+TEST(Sdk2Session, AUnitThatRunsItsLoaderIsSaidOnceAndNotStarted) {
+  LidarSessionConfig config;
+  config.address = Ipv4{127, 9, 0, 10};
+  Sdk2Session session(config, VirtualWire::host_towards());
+  std::vector<LidarEvent> events;
+  for (int second = 0; second < 20; ++second) {
+    const HostTime now = host_time_from_ns(second * 1'000'000'000LL);
+    (void)session.step(now);
+    for (const auto& one : session.take_outgoing()) {
+      const auto asked = virtual_device::parse_sdk2_request(one.bytes);
+      EXPECT_EQ(asked->command, 0x0101) << "nothing is written to it";
+      // return code 0, two keys: serial number "47MLOADER0001", firmware type 0
+      session.on_control(Channel::kControl, one.to,
+                         answer_to(one.bytes,
+                                   "00"
+                                   "0200"
+                                   "00801000"
+                                   "34374d4c4f4144455230303031000000"
+                                   "10800100"
+                                   "00"),
+                         now);
+    }
+    for (LidarEvent& event : session.take_events()) events.push_back(std::move(event));
+  }
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].kind, Kind::kFound);
+  EXPECT_EQ(events[1].kind, Kind::kNoFirmware);
+  EXPECT_NE(events[1].detail.find("47MLOADER0001"), std::string::npos) << events[1].detail;
+}
+
+TEST(Sdk2Session, ASettingThatNeedsARestartGetsOne) {
+  LidarSessionConfig config;
+  config.address = Ipv4{127, 9, 0, 10};
+  Sdk2Session session(config, VirtualWire::host_towards());
+  std::vector<std::uint16_t> commands;
+  for (int tenth = 0; tenth < 40; ++tenth) {
+    const HostTime now = host_time_from_ns(tenth * 100'000'000LL);
+    (void)session.step(now);
+    for (const auto& one : session.take_outgoing()) {
+      const auto asked = virtual_device::parse_sdk2_request(one.bytes);
+      commands.push_back(asked->command);
+      const char* answer = asked->command == 0x0101 ? "000000" : (asked->command == 0x0100 ? "210000" : "00");
+      session.on_control(Channel::kControl, one.to, answer_to(one.bytes, answer), now);
+    }
+  }
+  EXPECT_EQ(std::count(commands.begin(), commands.end(), 0x0200), 1) << "restarted once, not again and again";
+}
 
 TEST(Sdk2Session, WritesOnlyWhatDiffers) {
   virtual_device::Sdk2Unit unit(unit_config(), VirtualWire::kStart_ns);
