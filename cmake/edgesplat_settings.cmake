@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 option(EDGESPLAT_BUILD_TESTS "Build the test suite" ON)
 option(EDGESPLAT_BUILD_FUZZERS "Build the libFuzzer targets (needs clang)" OFF)
+option(EDGESPLAT_ONLY_KERNELS "Build kernels/ and their GPU tests alone, against the folder EDGESPLAT_CARRIED" OFF)
 option(EDGESPLAT_BUILD_BENCHMARKS "Build the Google Benchmark targets" OFF)
 
 set(CMAKE_CXX_STANDARD 20)

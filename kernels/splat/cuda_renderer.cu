@@ -7,13 +7,17 @@
 namespace edgesplat::splat {
 
 struct CudaRenderer::State {
-  explicit State(core::VramPool& pool) : cloud(pool), pass(pool, false), pictures(pool, "pictures") {}
+  State(core::VramPool& pool, bool half_precision)
+      : cloud(pool, half_precision ? CloudPrecision::kHalf : CloudPrecision::kFloat),
+        pass(pool, false),
+        pictures(pool, "pictures") {}
   DeviceCloud cloud;
   ForwardPass pass;
   core::DeviceBuffer<float> pictures;  ///< colour, depth and alpha, one behind the other
 };
 
-CudaRenderer::CudaRenderer(core::VramPool& pool) : state_(std::make_unique<State>(pool)) {}
+CudaRenderer::CudaRenderer(core::VramPool& pool, bool half_precision)
+    : state_(std::make_unique<State>(pool, half_precision)) {}
 CudaRenderer::~CudaRenderer() = default;
 CudaRenderer::CudaRenderer(CudaRenderer&&) noexcept = default;
 

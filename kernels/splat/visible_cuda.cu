@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/core/launch.cuh"
 #include "kernels/splat/device_frame.cuh"
-#include "kernels/splat/splat_one.hpp"
+#include "kernels/splat/device_input.cuh"
 #include "kernels/splat/tile_reach.hpp"
 
 namespace edgesplat::splat {
@@ -10,12 +10,6 @@ namespace {
 
 constexpr unsigned kThreads = 256;
 constexpr unsigned kWarps = kThreads / core::kWarp;
-
-__device__ SplatInput input_of(const CloudOnDevice& cloud, std::size_t row) {
-  const auto sh_floats = static_cast<std::size_t>(3 * (cloud.sh_degree + 1) * (cloud.sh_degree + 1));
-  return {cloud.means_m + 3 * row,   cloud.log_scales + 3 * row, cloud.quats_xyzw + 4 * row,
-          cloud.opacity_logits[row], cloud.sh + sh_floats * row, cloud.sh_degree};
-}
 
 /// Both kernels below must decide alike: this is where.
 __device__ bool shape_in(const FrameOnDevice& frame, const SplatInput& in, Splat& splat) {
@@ -25,13 +19,15 @@ __device__ bool shape_in(const FrameOnDevice& frame, const SplatInput& in, Splat
 }
 
 /// Marks the Gaussians that the picture shows. Most are told by their depth alone.
+template <bool kHalf>
 __global__ void cull_kernel(FrameOnDevice frame) {
   __shared__ unsigned in_warp[kWarps];
   const std::size_t i = std::size_t{blockIdx.x} * kThreads + threadIdx.x;
   const unsigned lane = threadIdx.x % core::kWarp;
   bool visible = false;
   if (i < frame.cloud.count && (frame.cloud.finite[i / core::kWarp] >> lane & 1U) != 0) {
-    const SplatInput in = input_of(frame.cloud, i);
+    InputRoom room;
+    const SplatInput in = input_of<kHalf>(frame.cloud, i, false, room);
     Splat splat;
     visible = shape_in(frame, in, splat);
   }
@@ -73,15 +69,18 @@ __global__ void list_kernel(FrameOnDevice frame) {
 }
 
 /// The splats of the listed rows, how deep they lie and how many tiles they reach.
+template <bool kHalf>
 __global__ void project_kernel(FrameOnDevice frame) {
   const std::size_t j = std::size_t{blockIdx.x} * kThreads + threadIdx.x;
   unsigned long long tiles = 0;
   if (j < frame.room.visible && j < frame.counts->visible) {
     const std::uint32_t row = frame.visible_rows[j];
-    const SplatInput in = input_of(frame.cloud, row);
+    InputRoom room;
+    const SplatInput in = input_of<kHalf>(frame.cloud, row, true, room);
     Splat splat{};
     shape_in(frame, in, splat);
     splat.gaussian = row;
+    splat.order = static_cast<std::uint32_t>(j);
     colour_towards(in, frame.view.position_m, splat.rgb);
     tiles = tiles_reached(splat, frame.view.columns, frame.view.rows);
     frame.splats[j] = splat;
@@ -116,12 +115,14 @@ Status find_visible(const core::Stream& stream, const FrameOnDevice& frame, core
   EDGESPLAT_CUDA_TRY(cudaMemsetAsync(frame.counts, 0, sizeof(FrameCounts), stream.get()));
   const core::LaunchShape all = core::one_thread_each(frame.cloud.count, kThreads);
   if (all.blocks == 0) return {};
-  EDGESPLAT_TRY_STATUS(core::launch(stream, all, cull_kernel, frame));
+  const bool half = frame.cloud.shape_halves != nullptr;
+  EDGESPLAT_TRY_STATUS(core::launch(stream, all, half ? &cull_kernel<true> : &cull_kernel<false>, frame));
   EDGESPLAT_TRY_STATUS(sort.exclusive_sum(stream, frame.block_counts, frame.block_starts, all.blocks));
   EDGESPLAT_TRY_STATUS(core::launch(stream, all, list_kernel, frame));
   EDGESPLAT_CUDA_TRY(
       cudaMemsetAsync(frame.depth_keys, 0xFF, frame.room.visible * sizeof(std::uint32_t), stream.get()));
-  return core::launch(stream, core::one_thread_each(frame.room.visible, kThreads), project_kernel, frame);
+  return core::launch(stream, core::one_thread_each(frame.room.visible, kThreads),
+                      half ? &project_kernel<true> : &project_kernel<false>, frame);
 }
 
 }  // namespace edgesplat::splat

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <vector>
 
 namespace edgesplat::splat {
 namespace {
@@ -41,6 +44,33 @@ TEST_F(CudaRendering, AFullMemoryIsAnErrorValue) {
   ASSERT_TRUE(renderer.set_cloud(*stream_, spans_of(small)));
   EXPECT_GT(renderer.draw_on_device(*stream_, view_, {})->visible, 0U);
   EXPECT_LE(pool.peak_bytes(), pool.budget_bytes());
+}
+
+TEST_F(CudaRendering, HalfPrecisionTakesLessAndDrawsNearlyTheSame) {
+  test::Random random(9);
+  auto gaussians = test::random_cloud(random, {.count = 2000, .sh_degree = 3, .scale_max_m = 0.4});
+  gaussians.sh[7] = std::numeric_limits<float>::quiet_NaN();
+  const auto drawn = [&](bool half_precision, std::size_t& used_bytes) {
+    core::VramPool pool(std::size_t{1} << 26U);
+    CudaRenderer renderer(pool, half_precision);
+    std::vector<float> colour(std::size_t{3} * 64 * 48), depth(std::size_t{64} * 48),
+        alpha(std::size_t{64} * 48);
+    EXPECT_TRUE(renderer.set_cloud(*stream_, spans_of(gaussians)));
+    used_bytes = pool.used_bytes();
+    const auto stats = renderer.draw(*stream_, view_, {}, {colour, depth, alpha});
+    EXPECT_TRUE(stats);
+    EXPECT_EQ(stats->not_finite, 1U);
+    return colour;
+  };
+  std::size_t whole_bytes = 0, half_bytes = 0;
+  const auto whole = drawn(false, whole_bytes), half = drawn(true, half_bytes);
+  EXPECT_NEAR(static_cast<double>(whole_bytes), 236.0 * 2000, 1000.0);
+  EXPECT_NEAR(static_cast<double>(half_bytes), 124.0 * 2000, 1000.0);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    squares += std::pow(static_cast<double>(whole[i] - half[i]), 2.0);
+  EXPECT_LT(squares / static_cast<double>(whole.size()), std::pow(10.0, -4.5)) << "45 dB";
+  EXPECT_GT(squares, 0.0);
 }
 
 TEST_F(CudaRendering, ASteadyViewTakesNoMoreMemory) {

@@ -115,6 +115,24 @@ TEST_P(RenderOn, EveryPixelAgreesWithTheReference) {
   }
 }
 
+TEST_P(RenderOn, FisheyesAndAntialiasedSplatsAgreeWithTheReference) {
+  for (const bool fisheye : {false, true}) {
+    test::Random random(33);
+    const auto cloud =
+        test::random_cloud(random, {.count = 300, .sh_degree = 1, .scale_min_m = 0.002, .scale_max_m = 0.3});
+    const geometry::RigidTransform pose{geometry::so3_exp(random.vector(0.3)), random.vector(0.5)};
+    RenderOptions options;
+    options.antialiased = true;
+    test::ReferenceOptions reference_options;
+    reference_options.antialiased = true;
+    auto model = camera(64, 48);
+    if (fisheye) model.kind = geometry::CameraKind::kFisheye;
+    const Picture drawn = draw(cloud, model, pose, options);
+    expect_agrees(drawn, test::reference_render(cloud, model, pose, reference_options));
+    EXPECT_GT(drawn.stats.visible, 20U);
+  }
+}
+
 gaussian::GaussianCloud one(const Eigen::Vector3f& mean, float scale_m, float logit) {
   gaussian::GaussianCloud cloud;
   cloud.resize(1);

@@ -25,10 +25,10 @@ expect_text() { # expect_text WHAT FILE PATTERN
   tail -n 20 "$2"
 }
 
-for script in "$root"/tools/{setup,test,demo,bench,edgesplat} "$root"/tools/lib/*.sh "$root"/.ci/run; do
+for script in "$root"/tools/{setup,test,demo,bench,gpu-check,edgesplat} "$root"/tools/lib/*.sh "$root"/.ci/run; do
   expect "syntax of $script" 0 bash -n "$script"
 done
-for command in setup test demo bench; do
+for command in setup test demo bench gpu-check; do
   expect "$command --help" 0 "$root/tools/$command" --help
   expect_text "$command --help" "$work/stdout" "usage: tools/$command"
   expect "$command with an unknown option" 2 "$root/tools/$command" --no-such-option
@@ -37,6 +37,17 @@ expect "demo with a bad length" 2 "$root/tools/demo" --seconds soon
 expect "demo live from a recording" 2 "$root/tools/demo" --live --input a.mcap
 expect "demo with a bad offload setting" 2 "$root/tools/demo" --offload perhaps
 expect "demo with a bad link" 2 "$root/tools/demo" --link narrow
+expect "gpu-check with a bad number" 2 "$root/tools/gpu-check" --rounds none
+if ! compgen -G "/dev/nvidia[0-9]*" >/dev/null && ! command -v nvidia-smi >/dev/null && [[ ! -e /dev/nvhost-gpu && ! -e /dev/nvgpu ]]; then
+  expect "gpu-check without a GPU" 1 "$root/tools/gpu-check"
+  expect_text "gpu-check without a GPU" "$work/stderr" "no NVIDIA GPU here"
+fi
+if [[ -d /usr/src/googletest ]]; then
+  expect "gpu-check --pack" 0 "$root/tools/gpu-check" --pack "$work/carried"
+  for file in googletest/CMakeLists.txt include/Eigen/Core include/tl/expected.hpp include/hwy/highway.h lib/libtbb.so.12; do
+    [[ -f $work/carried/$file ]] || { failures=$((failures + 1)); echo "gpu-check --pack: no $file"; }
+  done
+fi
 expect "bench without anything to measure" 2 "$root/tools/bench"
 
 # Stand-ins for the programs: the robot listens on its port and ends on SIGTERM, all note how they were called.
