@@ -25,10 +25,10 @@ expect_text() { # expect_text WHAT FILE PATTERN
   tail -n 20 "$2"
 }
 
-for script in "$root"/tools/{setup,test,demo,bench,gpu-check,edgesplat} "$root"/tools/lib/*.sh "$root"/.ci/run; do
+for script in "$root"/tools/{setup,test,demo,bench,gpu-check,edgesplat,jetson,sysroot} "$root"/tools/lib/*.sh "$root"/.ci/run; do
   expect "syntax of $script" 0 bash -n "$script"
 done
-for command in setup test demo bench gpu-check; do
+for command in setup test demo bench gpu-check jetson sysroot; do
   expect "$command --help" 0 "$root/tools/$command" --help
   expect_text "$command --help" "$work/stdout" "usage: tools/$command"
   expect "$command with an unknown option" 2 "$root/tools/$command" --no-such-option
