@@ -80,7 +80,7 @@ void TimeBase::watch_exact(Stream stream, SensorTime stamp, HostTime arrival) {
   if (stray && d.strays < kStraysForJump) return;
   observe(d, stamp, arrival);
   if (d.map.resets() > 0) {
-    fit_from_now(d);
+    fit_from_now(d, 0);
     return;
   }
   if (reference_ == stream) {
@@ -90,12 +90,13 @@ void TimeBase::watch_exact(Stream stream, SensorTime stamp, HostTime arrival) {
 }
 
 /// A disciplined clock that cannot be believed: what is exact from here on is the others.
-void TimeBase::fit_from_now(Device& d) {
+void TimeBase::fit_from_now(Device& d, std::int64_t latency_ns) {
   ++clock_changes_;
   d.exact = false;
   d.jumped = true;
   d.learnt = false;
   d.least = {};
+  d.latency_ns = latency_ns;
   d.map = ClockMap(config_);
   if (reference_ && !device(*reference_).exact) {
     for (const Stream other : {Stream::kPoints, Stream::kImu, Stream::kCamera})
@@ -119,7 +120,11 @@ void TimeBase::look_for_lies() {
     const double scatter_ns = 1e9 * kScatterShare * std::max(d.jitter_s, reference->jitter_s);
     if (std::abs(moved_ns(d) - moved_ns(*reference)) <= std::max(disagree_limit_ns_, scatter_ns)) continue;
     ++lies_;
-    fit_from_now(std::abs(moved_ns(d)) > std::abs(moved_ns(*reference)) ? d : *reference);
+    // While both could be believed their stamps told how much longer its messages are on the way.
+    Device& liar = std::abs(moved_ns(d)) > std::abs(moved_ns(*reference)) ? d : *reference;
+    const Device& other = &liar == &d ? *reference : d;
+    const std::int64_t latency_ns = difference(*liar.least.first_ns, *other.least.first_ns);
+    fit_from_now(liar, latency_ns);
     return;
   }
 }
@@ -166,7 +171,8 @@ std::optional<TimeBase::ClockState> TimeBase::clock_state(Stream stream) const {
 void TimeBase::learn(Device& d, SensorTime stamp, HostTime arrival) {
   const bool shift = base_ == Base::kStamps;
   if (shift && !arrival_minus_base_ns_) return;  // no disciplined arrival yet: nothing to relate to
-  observe(d, stamp, shift ? arrival - nanoseconds(*arrival_minus_base_ns_) : arrival);
+  observe(d, stamp,
+          shift ? arrival - nanoseconds(*arrival_minus_base_ns_) - nanoseconds(d.latency_ns) : arrival);
 }
 
 }  // namespace edgesplat::sync

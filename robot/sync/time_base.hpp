@@ -71,6 +71,7 @@ class TimeBase {
     ClockMap map;
     double jitter_s = 0.0;  ///< of arrivals, smoothed
     LeastDelay least;
+    std::int64_t latency_ns = 0;  ///< of its arrivals beyond those of the reference, as far as it is known
   };
   Device& device(Stream stream) { return devices_.at(static_cast<std::size_t>(stream)); }
   [[nodiscard]] const Device& device(Stream stream) const {
@@ -80,7 +81,7 @@ class TimeBase {
   void watch_exact(Stream stream, SensorTime stamp, HostTime arrival);
   void learn(Device& d, SensorTime stamp, HostTime arrival);
   void observe(Device& d, SensorTime stamp, HostTime arrival);
-  void fit_from_now(Device& d);
+  void fit_from_now(Device& d, std::int64_t latency_ns);
   void look_for_lies();
   [[nodiscard]] static std::int64_t offset_ns(const Device& d);
   [[nodiscard]] static double moved_ns(const Device& d);

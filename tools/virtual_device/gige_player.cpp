@@ -31,11 +31,18 @@ GigePlayer::~GigePlayer() {
 }
 
 void GigePlayer::push(const FrameMessage& message, std::vector<std::byte> payload) {
-  learn_clock(message.stamp);
+  learn_clock(message);
   queue_.push({message, std::move(payload)});
 }
 
-void GigePlayer::learn_clock(SensorTime stamp) {
+void GigePlayer::learn_clock(const FrameMessage& message) {
+  const SensorTime stamp = message.stamp;
+  if (message.stamp_source == sensor::StampSource::kPtp) {
+    if (clock_set_at_ && stamp > *clock_set_at_) return;  // it runs as the master's does
+    clock_set_at_ = stamp;
+    camera_->set_clock([stamp, then = clock_.now()](HostTime now) { return stamp + (now - then); });
+    return;
+  }
   host_from_stamp_.observe(stamp, clock_.now());
   const HostTime then = host_from_stamp_.to_host(stamp);
   const double rate = 1.0 + host_from_stamp_.drift_ppm() * 1e-6;

@@ -19,7 +19,8 @@
 namespace edgesplat::virtual_device {
 
 /// Recorded pictures as the exposures of a GigE Vision camera: decodes them on a thread of its own, so that
-/// the other devices are not delayed. Thread-bound.
+/// the other devices are not delayed. The clock that the camera shows when asked is that of the recorded
+/// stamps, later by the latency of the first picture (a free one: by the least latency). Thread-bound.
 class GigePlayer {
  public:
   /// Errors of GigeServer::open.
@@ -43,12 +44,13 @@ class GigePlayer {
     std::vector<std::byte> payload;
   };
   GigePlayer(std::unique_ptr<GigeServer> camera, const Clock& clock);
-  void learn_clock(SensorTime stamp);
+  void learn_clock(const FrameMessage& message);
   void expose(const Picture& picture);
 
   std::unique_ptr<GigeServer> camera_;
   const Clock& clock_;
   ClockMap host_from_stamp_;
+  std::optional<SensorTime> clock_set_at_;  ///< a disciplined clock: once
   thread::BoundedQueue<Picture> queue_;
   std::atomic<std::uint64_t> undecoded_{0};
   std::optional<thread::Worker> decoder_;

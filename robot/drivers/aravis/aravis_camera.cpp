@@ -271,7 +271,6 @@ Result<AravisCamera::ClockReading> AravisCamera::Device::read_clock() {
 }
 
 StreamStatistics AravisCamera::Device::statistics() const {
-  StreamStatistics all;
   guint64 completed = 0, failed = 0, underruns = 0, resent = 0, missing = 0;
   arv_stream_get_statistics(stream_.get(), &completed, &failed, &underruns);
   arv_gv_stream_get_statistics(ARV_GV_STREAM(stream_.get()), &resent, &missing);

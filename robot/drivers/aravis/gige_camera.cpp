@@ -17,6 +17,7 @@ constexpr auto kRetry = std::chrono::milliseconds(300);
 constexpr auto kProbeTimeout = std::chrono::milliseconds(100);
 constexpr auto kProbePeriod = std::chrono::milliseconds(200);
 constexpr auto kMostLatency = std::chrono::milliseconds(500);  // exposure, readout and transfer
+constexpr auto kMoreRoundTrip = std::chrono::microseconds(100);
 constexpr auto kFirstQuestion = std::chrono::milliseconds(500);
 constexpr auto kFirstFramePatience = std::chrono::seconds(2);  // the trigger may begin later than the camera
 
@@ -174,7 +175,8 @@ std::optional<sensor::Measurement> GigeCamera::stream(const std::stop_token& sto
       return std::nullopt;
     }
     read_clock();
-    if (frame) place_arrival(std::get<sensor::CameraFrame>(*frame));
+    // With a disciplined clock nothing is fitted, and when it came is what a recording is to tell.
+    if (frame && !disciplined()) place_arrival(std::get<sensor::CameraFrame>(*frame));
     if (outage_since_) note_recovery();
     last_frame_ = clock_.now();
     had_frame_ = true;
@@ -194,6 +196,10 @@ std::optional<sensor::Measurement> GigeCamera::stream(const std::stop_token& sto
 void GigeCamera::read_clock() {
   const auto reading = watch_->take_reading();
   if (!reading) return;
+  // A question that was long on the way tells less: the answer lies anywhere in between.
+  if (!host_from_camera_) best_round_trip_ = reading->round_trip;
+  best_round_trip_ = std::min(best_round_trip_, reading->round_trip);
+  if (host_from_camera_ && reading->round_trip > 2 * best_round_trip_ + kMoreRoundTrip) return;
   if (!host_from_camera_) host_from_camera_.emplace();
   host_from_camera_->observe(reading->device, reading->host);
 }

@@ -31,7 +31,9 @@ struct SessionCounters {
 /// A GigE Vision camera that comes back by itself. A camera that is not there is no error but a state. Frames
 /// that stop (unplugged, half open, restarted, trigger line broken) are noticed after `silence_s`; it is
 /// opened anew as soon as it answers. Each such event is one line in the log and one in the counters.
-/// Thread-bound; Aravis' threads and one that asks for the clock are inside.
+/// Where its clock is free but can be read, a frame's arrival is the moment of its stamp by that: no
+/// exposure, readout and transfer is in it. Thread-bound; Aravis' threads and one that asks for the clock are
+/// inside.
 class GigeCamera {
  public:
   /// kUnavailable where this build has no Aravis.
@@ -90,6 +92,7 @@ class GigeCamera {
   bool said_absent_ = false;
   std::optional<HostTime> outage_since_;
   std::optional<ClockMap> host_from_camera_;  ///< from readings of the camera's clock
+  nanoseconds best_round_trip_{};             ///< of those
   SessionCounters session_;
   StreamStatistics earlier_;  ///< of cameras that were closed
 };

@@ -145,6 +145,24 @@ TEST_P(ClockTruth, ACameraWhoseFlagLiesIsFoundByItsDrift) {
   }
 }
 
+TEST_P(ClockTruth, WhatTheLiarsMessagesTakeOnTheWayIsRemembered) {
+  TimeBase base({});
+  const auto lidar = clock_of(ClockMode::kPtp, NoisePurpose::kLidarClock, GetParam());
+  const auto camera = left_alone(clock_of(ClockMode::kPtp, NoisePurpose::kCameraClock, GetParam()), 30.0);
+  simulate::ArrivalModel lidar_arrival(150e-6, 60e-6, GetParam(), 0),
+      camera_arrival(0.016, 100e-6, GetParam(), 2);
+  for (int i = 0; i < 120 * 200; ++i) {
+    const HostTime t = Devices::true_time(i / 200.0);
+    (void)base.to_host(Stream::kPoints, lidar(t), Devices::host_time(lidar_arrival.arrival(t)),
+                       StampSource::kPtp);
+    if (i % 20 != 0) continue;
+    const HostTime on_line = base.to_host(Stream::kCamera, camera(t),
+                                          Devices::host_time(camera_arrival.arrival(t)), StampSource::kPtp);
+    EXPECT_LT(std::abs(to_seconds(on_line - t)), 1e-3) << i / 200.0;
+  }
+  EXPECT_EQ(base.lies(), 1U);
+}
+
 TEST_P(ClockTruth, ALidarWhoseFlagLiesIsFoundToo) {
   TimeBase base({});
   Devices devices(GetParam());
