@@ -12,8 +12,14 @@ std::string_view name_of(TrackingState state) {
       return "initialising";
     case TrackingState::kTracking:
       return "tracking";
+    case TrackingState::kDegraded:
+      return "degraded";
     case TrackingState::kCoasting:
       return "coasting";
+    case TrackingState::kLost:
+      return "lost";
+    case TrackingState::kRecovered:
+      return "recovered";
   }
   return "unknown";
 }

@@ -14,8 +14,11 @@ namespace edgesplat::tracking {
 
 enum class TrackingState : std::uint8_t {
   kInitialising,  ///< gathering IMU samples for gravity; the pose is not valid yet
-  kTracking,
-  kCoasting,  ///< no usable LiDAR in this group: pose from IMU or constant velocity alone
+  kTracking,      ///< LiDAR and camera together see every direction
+  kDegraded,      ///< a direction is the IMU's alone, or the LiDAR is out and the picture carries the pose
+  kCoasting,      ///< neither scan nor picture fitted: pose from the IMU or constant velocity alone
+  kLost,          ///< coasted for too long: the pose is a guess, and is looked for in the map
+  kRecovered,     ///< found again less than a second ago
 };
 
 struct DeskewedPoint {

@@ -17,6 +17,9 @@ namespace edgesplat::tracking {
 struct TrackingCounters {
   std::int64_t groups = 0;
   std::int64_t coasted_groups = 0;       ///< too few residuals: pose from the IMU or constant velocity alone
+  std::int64_t misfit_scans = 0;         ///< aligned, but too much of them lay off the map: not believed
+  std::int64_t recoveries = 0;           ///< a lost pose was found in the map
+  std::int64_t map_restarts = 0;         ///< a lost pose was not found: the map was begun anew
   std::int64_t bad_points = 0;           ///< not finite
   std::int64_t out_of_range_points = 0;  ///< nearer or farther than the LiDAR or the config allows
   std::int64_t bad_imu_samples = 0;      ///< not finite or not after the one before

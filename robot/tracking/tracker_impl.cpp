@@ -10,12 +10,8 @@
 namespace edgesplat::tracking {
 namespace {
 
-constexpr std::size_t kBlockSize = 1024;
 /// A rig whose IMU is silent for this many groups starts without it.
 constexpr int kGroupsUntilFree = 10;
-/// After a start in motion the map is drawn anew from each of this many scans: until the speed is known,
-/// scans are deskewed wrongly, and a bent first map would bend everything after it.
-constexpr double kSmoothStart_mps = 0.1;
 /// Corrections of the motion within a group larger than these deskew the points anew.
 constexpr double kDeskewAgain_m = 0.002;
 constexpr double kDeskewAgain_rad = 0.0005;
@@ -23,6 +19,13 @@ constexpr double kDeskewAgain_rad = 0.0005;
 /// taken to be no faster in the others.
 constexpr double kRestSpeed_mps = 0.05;
 constexpr double kRestSigma_mps = 0.02;
+
+ScanUpdateConfig update_config(const TrackingConfig& config) {
+  return {config.max_iterations, static_cast<float>(config.gate_sigma),
+          static_cast<float>(config.min_residual_sigma_m), config.min_residuals};
+}
+
+}  // namespace
 
 PlaneMapConfig map_config(const TrackingConfig& config) {
   return {config.root_voxel_m,
@@ -33,13 +36,6 @@ PlaneMapConfig map_config(const TrackingConfig& config) {
           config.map_half_extent_m,
           static_cast<std::size_t>(config.map_max_mb) << 20U};
 }
-
-ScanUpdateConfig update_config(const TrackingConfig& config) {
-  return {config.max_iterations, static_cast<float>(config.gate_sigma),
-          static_cast<float>(config.min_residual_sigma_m), config.min_residuals};
-}
-
-}  // namespace
 
 Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in)
     : config(config_in),
@@ -188,41 +184,6 @@ void Tracker::Impl::use_rest(const ScanUpdateResult& result) {
   if (seen_mps.norm() < kRestSpeed_mps) hold_velocity(*belief, unseen, kRestSigma_mps);
 }
 
-void Tracker::Impl::extend_map(const ScanUpdateResult& result) {
-  // A lost pose must not spoil the map; an unmapped place must enter it.
-  const bool unmapped = static_cast<std::size_t>(result.last.matched) * 10 < scan_points_m.size();
-  if (!result.updated && !unmapped) return;
-  if (scans_to_redraw > 0 && result.updated) {
-    --scans_to_redraw;
-    const bool was_bent =
-        sweep.has_point_times() && belief->state.velocity_in_odom_mps.norm() > kSmoothStart_mps;
-    if (was_bent) map = PlaneMap(map_config(config));
-  }
-  const auto points = sweep.points_in_body_m();
-  const auto kept = map_downsampler.run(points, static_cast<float>(config.map_voxel_m));
-  const geometry::RigidTransform& pose = belief->state.odom_from_body;
-  const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
-  const Eigen::Matrix3f rotation_f = rotation.cast<float>();
-  const Eigen::Matrix3f rotation_noise = belief->covariance.block<3, 3>(kRot, kRot).cast<float>();
-  const Eigen::Matrix3f position_noise = belief->covariance.block<3, 3>(kPos, kPos).cast<float>();
-  const Eigen::Vector3f lidar_in_body = rig.body_from_lidar.translation_m.cast<float>();
-  map_points.resize(kept.size());
-  loop.run(kept.size(), kBlockSize, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Eigen::Vector3f& p = points[kept[i]];
-      const Eigen::Matrix3f in_body = noise.covariance(p - lidar_in_body);
-      Eigen::Matrix3f lever;
-      lever << 0.0F, -p.z(), p.y(), p.z(), 0.0F, -p.x(), -p.y(), p.x(), 0.0F;
-      const Eigen::Matrix3f turned = rotation_f * lever;
-      map_points[i].p_in_odom_m = rotation * p.cast<double>() + pose.translation_m;
-      map_points[i].covariance_m2 = pack(rotation_f * in_body * rotation_f.transpose());
-      map_points[i].pose_covariance_m2 = pack(turned * rotation_noise * turned.transpose() + position_noise);
-    }
-  });
-  for (const MapPoint& point : map_points) map.insert(point);
-  map.slide(pose.translation_m);
-}
-
 TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUpdateResult& result,
                                    const VisualUpdateResult& picture) const {
   const FilterBelief at_end =
@@ -238,7 +199,7 @@ TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUp
     tracked.gyro_bias_radps = belief->state.gyro_bias_radps;
     tracked.accel_bias_mps2 = belief->state.accel_bias_mps2;
   }
-  tracked.health.state = result.updated ? TrackingState::kTracking : TrackingState::kCoasting;
+  tracked.health.state = state;
   tracked.health.points_used = result.last.used;
   tracked.health.iterations = result.iterations;
   tracked.health.frozen_directions = result.observed.frozen;
@@ -269,6 +230,7 @@ TrackedGroup Tracker::Impl::start(const sync::MeasureGroup& group) {
   first.updated = true;  // this pose defines odom
   extend_map(first);
   scans_to_redraw = kRedrawnScans;
+  state = TrackingState::kTracking;
   TrackedGroup tracked = report(group, first, {});
   // Without an IMU the speed is unknown until the second group: a sweep cannot be deskewed yet, and where the
   // body was at its end is not known either. The map is begun, but no pose is claimed.
@@ -284,7 +246,8 @@ Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
   if (!belief) return start(group);
   Prediction prediction = predict(group);
   const HostTime at = update_time(group);
-  const ScanUpdateResult result = update(prediction, at);
+  ScanUpdateResult result = update(prediction, at);
+  check(result, prediction);
   if (!result.updated) ++counters.coasted_groups;
   if (result.updated && !with_imu) {
     free_motion.observe(minus(result.belief.state, prediction.belief.state), to_seconds(at - belief_time));
@@ -294,8 +257,9 @@ Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
   last_end = group.end;
   const VisualUpdateResult picture = see(group, result);
   if (!picture.updated) use_rest(result);
+  judge(result, picture, to_seconds(group.end - group.begin));
   extend_map(result);
-  if (picture_taken) visual->extend(*belief, map);
+  if (picture_taken && !keeper.lost()) visual->extend(*belief, map);
   return report(group, result, picture);
 }
 

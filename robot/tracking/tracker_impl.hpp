@@ -7,9 +7,11 @@
 #include "robot/tracking/free_motion.hpp"
 #include "robot/tracking/imu_initialiser.hpp"
 #include "robot/tracking/plane_map.hpp"
+#include "robot/tracking/relocalise.hpp"
 #include "robot/tracking/rest_detector.hpp"
 #include "robot/tracking/scan_update.hpp"
 #include "robot/tracking/sweep.hpp"
+#include "robot/tracking/track_keeper.hpp"
 #include "robot/tracking/tracker.hpp"
 #include "robot/tracking/visual_front.hpp"
 
@@ -19,6 +21,8 @@
 namespace edgesplat::tracking {
 
 constexpr int kRedrawnScans = 4;
+
+[[nodiscard]] PlaneMapConfig map_config(const TrackingConfig& config);
 
 /// The stages of one group, in their order. See Tracker.
 struct Tracker::Impl {
@@ -36,6 +40,15 @@ struct Tracker::Impl {
   Prediction predict(const sync::MeasureGroup& group);
   ScanUpdateResult match(const Prediction& prediction, const FilterState& start_at);
   ScanUpdateResult update(Prediction& prediction, HostTime at);
+  /// An update that lies wrongly is taken back; a lost pose is looked for in the map.
+  void check(ScanUpdateResult& result, const Prediction& prediction);
+  [[nodiscard]] std::optional<ScanUpdateResult> look_for_pose(const Prediction& prediction);
+  /// What state the group's updates leave tracking in.
+  void judge(const ScanUpdateResult& scan, const VisualUpdateResult& picture, double dt_s);
+  /// Nothing around fits for long, although there are points: the map is begun anew where the body is thought
+  /// to be.
+  void begin_again();
+  [[nodiscard]] bool unmapped(const ScanUpdateResult& result) const;
   void pick_scan_points();
   /// Rest tells the speed along what the LiDAR does not see.
   void use_rest(const ScanUpdateResult& result);
@@ -56,6 +69,10 @@ struct Tracker::Impl {
   FreeMotion free_motion;
   ImuInitialiser initialiser;
   RestDetector rest;
+  TrackKeeper keeper;
+  TrackingState state = TrackingState::kInitialising;
+  int searches = 0;  ///< for the pose that is lost
+  int groups_since_search = 0;
   std::optional<VisualFront> visual;
   bool picture_taken = false;  ///< the group's picture is in `visual`
   bool with_imu;               ///< decided at the first pose, then fixed
