@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/io/byte_compression.hpp"
 
+#include <bzlib.h>
 #include <zlib.h>
 #include <zstd.h>
 
@@ -27,6 +28,14 @@ struct ZlibStream {
   ZlibStream(const ZlibStream&) = delete;
   ZlibStream& operator=(const ZlibStream&) = delete;
   ~ZlibStream() { kEnd(&z); }
+};
+
+struct Bzip2Stream {
+  bz_stream z{};
+  Bzip2Stream() = default;
+  Bzip2Stream(const Bzip2Stream&) = delete;
+  Bzip2Stream& operator=(const Bzip2Stream&) = delete;
+  ~Bzip2Stream() { BZ2_bzDecompressEnd(&z); }
 };
 
 }  // namespace
@@ -75,6 +84,37 @@ Result<std::vector<std::byte>> gunzip(std::span<const std::byte> compressed, std
     if (state == Z_OK || state == Z_STREAM_END) continue;
     return fail(Errc::kCorrupt, state == Z_BUF_ERROR ? "gzip: truncated" : "gzip: damaged");
   }
+  out.resize(filled);
+  return out;
+}
+
+Result<std::vector<std::byte>> bunzip2(std::span<const std::byte> compressed, std::size_t plain_bytes) {
+  if (compressed.size() > kMaxPiece) return fail(Errc::kCorrupt, "bzip2: too long");
+  Bzip2Stream stream;
+  bz_stream& z = stream.z;
+  if (BZ2_bzDecompressInit(&z, 0, 0) != BZ_OK) return fail(Errc::kIo, "no memory for a bzip2 stream");
+  z.next_in = reinterpret_cast<char*>(to_zlib(compressed));
+  z.avail_in = static_cast<unsigned>(compressed.size());
+  std::vector<std::byte> out;
+  std::size_t filled = 0;
+  while (true) {
+    if (filled == out.size()) {
+      // One byte over what is stated shows that more would come.
+      out.resize(std::min(plain_bytes + 1, std::max(std::size_t{1} << 16U, 2 * out.size())));
+      if (filled == out.size()) return fail(Errc::kCorrupt, "bzip2: another length than stated");
+    }
+    const std::size_t room = std::min(out.size() - filled, kMaxPiece);
+    z.next_out = reinterpret_cast<char*>(out.data() + filled);
+    z.avail_out = static_cast<unsigned>(room);
+    const unsigned in_before = z.avail_in;
+    const int state = BZ2_bzDecompress(&z);
+    const std::size_t got = room - z.avail_out;
+    filled += got;
+    if (state == BZ_STREAM_END) break;
+    if (state != BZ_OK) return fail(Errc::kCorrupt, "bzip2: damaged");
+    if (got == 0 && z.avail_in == in_before) return fail(Errc::kCorrupt, "bzip2: truncated");
+  }
+  if (filled != plain_bytes) return fail(Errc::kCorrupt, "bzip2: another length than stated");
   out.resize(filled);
   return out;
 }
