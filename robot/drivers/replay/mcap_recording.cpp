@@ -3,7 +3,6 @@
 #include "robot/drivers/replay/mcap_recording.hpp"
 
 #include "common/io/image_file.hpp"
-#include "common/io/mcap_reader.hpp"
 #include "common/io/recording_topics.hpp"
 #include "common/io/ros_messages.hpp"
 #include "common/sensor/rig_config.hpp"
@@ -160,14 +159,18 @@ std::string list_topics(const io::McapReader& reader) {
 
 }  // namespace
 
-Result<std::unique_ptr<ReplaySource::Reader>> open_mcap_recording(const std::filesystem::path& path) {
-  EDGESPLAT_TRY(io::McapReader reader, io::McapReader::open(path));
-  if (reader.find_channel(io::kLidarPointsTopic) == nullptr &&
-      reader.find_channel(io::kCameraImageTopic) == nullptr)
+bool is_own_recording(const io::McapReader& reader) {
+  return reader.find_channel(io::kLidarPointsTopic) != nullptr ||
+         reader.find_channel(io::kCameraImageTopic) != nullptr;
+}
+
+Result<std::unique_ptr<ReplaySource::Reader>> open_mcap_recording(io::McapReader reader,
+                                                                  const std::filesystem::path& path) {
+  if (!is_own_recording(reader))
     return fail(Errc::kInvalidArgument, path.string() + " is no recording of a robot: expected the topics " +
                                             std::string(io::kLidarPointsTopic) + " or " +
                                             std::string(io::kCameraImageTopic) + ", found " +
-                                            list_topics(reader));
+                                            list_topics(reader) + "; a recording of ROS needs --rig FILE");
   const auto attachment = reader.attachment(io::kRigAttachment);
   if (!attachment)
     return fail(Errc::kInvalidArgument, path.string() +

@@ -5,6 +5,7 @@
 #include "common/base/result.hpp"
 #include "common/sensor/measurement.hpp"
 #include "common/sensor/rig.hpp"
+#include "robot/drivers/replay/bag_rig.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -25,22 +26,26 @@ struct ReplayReport {
   std::string why;                    ///< "recording truncated at byte 123: kept 1234 messages"
 };
 
-/// A recording as a stream of measurements in arrival order. Three kinds: our `.mcap`; a folder laid out like
-/// KITTI raw (velodyne/*.bin, image_02/*.{jpg,png}, calib_*.txt); a folder of KITTI `.bin` scans. Pacing is
+/// A recording as a stream of measurements in arrival order. Four kinds: our `.mcap`; a folder laid out like
+/// KITTI raw (velodyne/*.bin, image_02/*.{jpg,png}, calib_*.txt); a folder of KITTI `.bin` scans; a recording
+/// of ROS (`.bag`, `.mcap`, `.db3`, or a folder of them), which does not say where its sensors sit. Pacing is
 /// the caller's: each measurement carries its arrival time. Holds one measurement in memory (and the MCAP
 /// reader's chunks). Single-owner.
 class ReplaySource {
  public:
-  /// kNotFound for a missing path; kInvalidArgument where it is none of the three kinds, with what was
-  /// expected and what was found; kCorrupt, kIo.
-  static Result<ReplaySource> open(const std::filesystem::path& path);
+  /// `rig`, where given, takes the place of the recording's own. kNotFound for a missing path;
+  /// kInvalidArgument where it is none of the four kinds, with what was expected and what was found;
+  /// kInvalidConfig where a recording of ROS comes without a rig or does not fit it; kCorrupt, kIo.
+  static Result<ReplaySource> open(const std::filesystem::path& path, const std::optional<BagRig>& rig = {});
+  /// A folder, and not of ROS recordings.
+  [[nodiscard]] static bool is_scan_folder(const std::filesystem::path& path);
   ReplaySource(ReplaySource&&) noexcept;
   ReplaySource& operator=(ReplaySource&&) noexcept;
   ReplaySource(const ReplaySource&) = delete;
   ReplaySource& operator=(const ReplaySource&) = delete;
   ~ReplaySource();
 
-  /// The sensors and where they sit, from the recording.
+  /// The sensors and where they sit, as given to open() or from the recording.
   [[nodiscard]] const sensor::Rig& rig() const;
   /// The next measurement, or nothing at the end. An Error is one that ends the replay (the disk fails);
   /// damage is skipped, counted and in report().
@@ -63,8 +68,9 @@ class ReplaySource {
   };
 
  private:
-  explicit ReplaySource(std::unique_ptr<Reader> reader);
+  ReplaySource(std::unique_ptr<Reader> reader, std::optional<sensor::Rig> rig);
   std::unique_ptr<Reader> reader_;
+  std::optional<sensor::Rig> rig_;  ///< instead of the reader's
 };
 
 }  // namespace edgesplat::replay

@@ -212,6 +212,10 @@ sensor::Rig velodyne_rig(const fs::path& folder) {
 
 }  // namespace
 
+bool holds_scans(const fs::path& folder) {
+  return find_scans(folder).has_value();
+}
+
 Result<std::unique_ptr<ReplaySource::Reader>> open_scan_folder(const fs::path& folder) {
   EDGESPLAT_TRY(const auto scans, find_scans(folder));
   EDGESPLAT_TRY(const FrameTimes times, read_times(folder, scans));

@@ -15,4 +15,7 @@ namespace edgesplat::replay {
 [[nodiscard]] Result<std::unique_ptr<ReplaySource::Reader>> open_scan_folder(
     const std::filesystem::path& folder);
 
+/// It holds .bin scans, itself or in velodyne/.
+[[nodiscard]] bool holds_scans(const std::filesystem::path& folder);
+
 }  // namespace edgesplat::replay
