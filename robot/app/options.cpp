@@ -15,8 +15,10 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.footer("Exit codes: 0 done, 1 failed, 2 usage or configuration. SIGINT and SIGTERM end a run cleanly.");
   bool live = false;
   auto* live_flag = app.add_flag("--live", live, "Read the sensors (Livox over UDP, camera over TCP)");
-  app.add_option("--replay", o.replay,
-                 "Read a recording instead: .mcap, KITTI-like folder, folder of .bin scans")
+  app.add_option(
+         "--replay", o.replay,
+         "Read a recording instead: .mcap, KITTI-like folder, folder of .bin scans, or with --rig one of ROS "
+         "(.bag, .mcap, .db3)")
       ->excludes(live_flag);
   app.add_option("--config", o.config_file, "Configuration (TOML)");
   app.add_option("--set", o.overrides, "Override one setting, key=value; may be repeated")

@@ -43,9 +43,10 @@ Result<robot_config::RobotConfig> load_config(const Options& o) {
   return config;
 }
 
-Result<sensor::Rig> load_rig(const Options& o, const std::optional<replay::ReplaySource>& recording) {
-  if (!o.rig_file.empty()) return sensor::load_rig(o.rig_file);
+Result<sensor::Rig> choose_rig(const std::optional<replay::BagRig>& given,
+                               const std::optional<replay::ReplaySource>& recording) {
   if (recording) return recording->rig();
+  if (given) return given->rig;
   return fail(Errc::kInvalidConfig,
               "a live run needs --rig FILE: which sensors there are and where they sit");
 }
@@ -169,12 +170,16 @@ Status run_robot(const Options& o, const std::stop_token& stop) {
     std::fputs(config::to_toml(config).c_str(), stdout);
     return {};
   }
+  std::optional<replay::BagRig> given_rig;
+  if (!o.rig_file.empty()) {
+    EDGESPLAT_TRY(given_rig, replay::load_bag_rig(o.rig_file));
+  }
   std::optional<replay::ReplaySource> recording;
   if (!o.replay.empty()) {
-    EDGESPLAT_TRY(recording, replay::ReplaySource::open(o.replay));
+    EDGESPLAT_TRY(recording, replay::ReplaySource::open(o.replay, given_rig));
   }
   if (o.check_config && !recording && o.rig_file.empty()) return {};
-  EDGESPLAT_TRY(const sensor::Rig rig, load_rig(o, recording));
+  EDGESPLAT_TRY(const sensor::Rig rig, choose_rig(given_rig, recording));
   if (o.check_config) return {};
 
   std::optional<RunFolder> folder;

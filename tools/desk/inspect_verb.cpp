@@ -37,7 +37,7 @@ Status run_inspect(const InspectOptions& options) {
 void add_inspect_verb(CLI::App& app, VerbContext& context) {
   auto* verb = app.add_subcommand("inspect", "Say what a recording, point cloud, map or trajectory holds");
   auto options = std::make_shared<InspectOptions>();
-  verb->add_option("file", options->file, "A .mcap, .ply, .spz, .splat or .tum file")->required();
+  verb->add_option("file", options->file, "A .mcap, .bag, .db3, .ply, .spz, .splat or .tum file")->required();
   auto* extract =
       verb->add_option("--extract", options->attachment, "Take this attachment out of a recording");
   auto* to = verb->add_option("--to", options->target, "Where the attachment goes");

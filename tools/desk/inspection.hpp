@@ -17,13 +17,15 @@ struct Inspection {
 
 /// Channels with counts, rates and gaps; attachments; damage.
 [[nodiscard]] Result<Inspection> inspect_recording(const std::filesystem::path& path);
+/// The same of a ROS bag: topics with types, counts, rates, gaps.
+[[nodiscard]] Result<Inspection> inspect_bag(const std::filesystem::path& path);
 /// Points or Gaussians (in .ply told apart by the names of the properties): number, extent, colour or degree.
 [[nodiscard]] Result<Inspection> inspect_cloud(const std::filesystem::path& path);
 /// Poses, duration, path, rate, gaps.
 [[nodiscard]] Result<Inspection> inspect_trajectory(const std::filesystem::path& path);
 
-/// One of the above by the file's ending (.mcap, .ply, .spz, .splat, .tum or .txt); kInvalidArgument for
-/// another one.
+/// One of the above by the file's ending (.mcap, .bag, .db3, .ply, .spz, .splat, .tum or .txt, or a folder of
+/// bags); kInvalidArgument for another one.
 [[nodiscard]] Result<Inspection> inspect_file(const std::filesystem::path& path);
 
 /// Writes an attachment of a recording to `target`. kNotFound names the attachments that are there.

@@ -52,9 +52,8 @@ class OdometryLoop {
   OdometryRun run_;
 };
 
-Result<sensor::Rig> choose_rig(const OdometryJob& job, const sensor::Rig& recorded) {
-  sensor::Rig rig = job.rig.value_or(recorded);
-  if (std::filesystem::is_directory(job.lidar)) rig.camera.reset();  // groups end with the scans
+sensor::Rig choose_rig(const OdometryJob& job, sensor::Rig rig) {
+  if (replay::ReplaySource::is_scan_folder(job.lidar)) rig.camera.reset();  // groups end with the scans
   if (job.imu && !rig.imu) rig.imu = sensor::ImuModel{};
   if (job.mode == OdometryMode::kLidar) {
     rig.imu.reset();
@@ -65,9 +64,11 @@ Result<sensor::Rig> choose_rig(const OdometryJob& job, const sensor::Rig& record
 
 }  // namespace
 
-tracking::TrackingConfig default_tracking(const std::filesystem::path& lidar) {
+tracking::TrackingConfig default_tracking(const std::filesystem::path& lidar,
+                                          const std::optional<replay::BagRig>& rig) {
   tracking::TrackingConfig config;
-  if (!std::filesystem::is_directory(lidar)) return config;
+  const bool is_hdl64 = rig && rig->rig.lidar.name == "hdl64e";
+  if (!is_hdl64 && !replay::ReplaySource::is_scan_folder(lidar)) return config;
   config.root_voxel_m = 2.0;
   config.scan_voxel_m = 0.5;
   config.map_voxel_m = 0.25;
@@ -85,8 +86,8 @@ void set_azimuth_times(sync::MeasureGroup& group) {
 }
 
 Result<OdometryRun> run_odometry(const OdometryJob& job, const Clock& clock) {
-  EDGESPLAT_TRY(replay::ReplaySource source, replay::ReplaySource::open(job.lidar));
-  EDGESPLAT_TRY(const sensor::Rig rig, choose_rig(job, source.rig()));
+  EDGESPLAT_TRY(replay::ReplaySource source, replay::ReplaySource::open(job.lidar, job.rig));
+  const sensor::Rig rig = choose_rig(job, source.rig());
   std::vector<sensor::ImuSample> imu;
   if (job.imu) {
     EDGESPLAT_TRY(imu, read_imu_csv(*job.imu));

@@ -6,6 +6,7 @@
 #include "common/io/trajectory_file.hpp"
 #include "common/sensor/rig.hpp"
 #include "common/time/clock.hpp"
+#include "robot/drivers/replay/bag_rig.hpp"
 #include "robot/sync/measure_group.hpp"
 #include "robot/tracking/tracked_group.hpp"
 #include "robot/tracking/tracking_config.hpp"
@@ -34,7 +35,7 @@ enum class OdometryMode : std::uint8_t {
 struct OdometryJob {
   std::filesystem::path lidar;               ///< a folder of KITTI .bin scans, or a recording
   std::optional<std::filesystem::path> imu;  ///< EuRoC's CSV, on the scans' time base
-  std::optional<sensor::Rig> rig;            ///< instead of the recording's own
+  std::optional<replay::BagRig> rig;         ///< instead of the recording's own; needed for one of ROS
   tracking::TrackingConfig tracking;
   ScanTiming timing = ScanTiming::kInstant;
   OdometryMode mode = OdometryMode::kLidarInertialVisual;
@@ -54,8 +55,9 @@ struct OdometryRun {
 };
 
 /// The defaults of tracking for a job: cells and thinning for streets where the LiDAR is a 64-line one (a
-/// folder of scans), those of TrackingConfig for a recording.
-[[nodiscard]] tracking::TrackingConfig default_tracking(const std::filesystem::path& lidar);
+/// folder of scans, or a rig that names a "hdl64e"), those of TrackingConfig for a recording.
+[[nodiscard]] tracking::TrackingConfig default_tracking(const std::filesystem::path& lidar,
+                                                        const std::optional<replay::BagRig>& rig = {});
 
 /// Tracks a whole recording, as fast as it goes. `clock` times the groups. Errors of reading, and
 /// kInvalidArgument where nothing in it could be tracked.

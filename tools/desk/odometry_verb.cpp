@@ -3,7 +3,6 @@
 #include "common/config/config_file.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/metrics/process_usage.hpp"
-#include "common/sensor/rig_config.hpp"
 #include "robot/tracking/health_csv.hpp"
 #include "tools/accuracy/evaluation_text.hpp"
 #include "tools/desk/odometry.hpp"
@@ -39,11 +38,11 @@ Result<OdometryJob> job_of(const OdometryOptions& options) {
   job.lidar = options.lidar;
   job.timing = options.timing;
   job.mode = options.mode;
-  job.tracking = default_tracking(job.lidar);
   if (!options.imu.empty()) job.imu = options.imu;
   if (!options.rig.empty()) {
-    EDGESPLAT_TRY(job.rig, sensor::load_rig(options.rig));
+    EDGESPLAT_TRY(job.rig, replay::load_bag_rig(options.rig));
   }
+  job.tracking = default_tracking(job.lidar, job.rig);
   config::ConfigFile settings;
   for (const std::string& assignment : options.settings) {
     EDGESPLAT_TRY_STATUS(settings.apply_override(assignment));
@@ -77,7 +76,7 @@ nlohmann::json summary_of(const OdometryRun& run) {
 
 /// Against the truth in a simulated recording; nothing where there is none.
 std::optional<accuracy::Evaluation> evaluate(const OdometryJob& job, const OdometryRun& run) {
-  if (std::filesystem::is_directory(job.lidar)) return std::nullopt;
+  if (job.lidar.extension() != ".mcap") return std::nullopt;
   const auto truth = accuracy::read_recorded_truth(job.lidar);
   if (!truth) return std::nullopt;
   constexpr auto kMaxGap = from_seconds(0.1);
@@ -127,8 +126,10 @@ void add_odometry_verb(CLI::App& app, VerbContext& context) {
   auto* verb =
       app.add_subcommand("odometry", "Track a folder of LiDAR scans or a recording, without a server");
   auto options = std::make_shared<OdometryOptions>();
-  verb->add_option("--lidar", options->lidar,
-                   "Folder of KITTI .bin scans (times.txt or 10 Hz), or a recording")
+  verb->add_option(
+          "--lidar,--bag", options->lidar,
+          "Folder of KITTI .bin scans (times.txt or 10 Hz), or a recording: our .mcap, or with --rig one "
+          "of ROS (.bag, .mcap, .db3)")
       ->required();
   verb->add_option("--imu", options->imu,
                    "IMU samples, CSV: t_ns, gyro x y z (rad/s), accelerometer x y z (m/s^2)");

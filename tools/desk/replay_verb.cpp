@@ -15,7 +15,8 @@ void add_replay_verb(CLI::App& app, VerbContext& context) {
   auto* verb = app.add_subcommand("replay", "Run the robot on a recording, as edgesplat-robot --replay does");
   auto options = std::make_shared<app::Options>();
   auto with_server = std::make_shared<bool>(false);
-  verb->add_option("recording", options->replay, "A .mcap, a KITTI-like folder or a folder of .bin scans")
+  verb->add_option("recording", options->replay,
+                   "A .mcap, a KITTI-like folder, a folder of .bin scans, or with --rig a recording of ROS")
       ->required();
   verb->add_option("--out", options->out, "Run folder; `edgesplat report --run` reads it")->required();
   verb->add_option("--config", options->config_file, "The robot's configuration (TOML)");

@@ -7,6 +7,7 @@
 #include "common/io/ply_gaussians.hpp"
 #include "common/io/ply_points.hpp"
 #include "common/io/trajectory_file.hpp"
+#include "test/common/io/bag_samples.hpp"
 #include "tools/desk/gap_statistics.hpp"
 
 #include <gtest/gtest.h>
@@ -134,6 +135,24 @@ TEST(InspectFile, RefusesWhatItDoesNotKnow) {
   EXPECT_FALSE(inspect_file(file_named("never_written.mcap")));
   ASSERT_TRUE(io::write_file_atomically(file_named("noise.ply"), std::string_view("not a ply file")));
   EXPECT_FALSE(inspect_file(file_named("noise.ply")));
+}
+
+TEST(Inspection, CountsABagsTopics) {
+  const auto path = file_named("a.bag");
+  const auto bytes = io::rosbag1_bytes(io::numbered_messages(50), io::BagCompression::kLz4);
+  ASSERT_TRUE(io::write_file_atomically(path, bytes));
+  const auto inspection = inspect_file(path);
+  ASSERT_TRUE(inspection) << inspection.error().context;
+  const auto json = nlohmann::json::parse(inspection->json);
+  EXPECT_EQ(json["kind"], "bag");
+  EXPECT_EQ(json["messages"], 50);
+  EXPECT_EQ(json["complete"], true);
+  ASSERT_EQ(json["channels"].size(), 2U);
+  EXPECT_EQ(json["channels"][0]["topic"], "/even");
+  EXPECT_EQ(json["channels"][0]["schema"], "test/Text");
+  EXPECT_EQ(json["channels"][0]["messages"], 25);
+  EXPECT_NEAR(json["channels"][0]["rate_hz"].get<double>(), 50.0, 1e-6);
+  std::filesystem::remove(path);
 }
 
 }  // namespace
