@@ -34,6 +34,10 @@ elseif(NOT EDGESPLAT_CUDA STREQUAL "OFF")
     endif()
     # Device code uses no Eigen: without its host-device marks nvcc has nothing to warn of.
     add_compile_options("$<$<COMPILE_LANGUAGE:CUDA>:-DEIGEN_NO_CUDA;-Werror=all-warnings>")
+    if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+      # nvcc does not know g++'s NEON intrinsics. Alignments have to be those of the C++ sources all the same.
+      add_compile_options("$<$<COMPILE_LANGUAGE:CUDA>:-DEIGEN_DONT_VECTORIZE;-DEIGEN_MAX_ALIGN_BYTES=16;-DEIGEN_MAX_STATIC_ALIGN_BYTES=16>")
+    endif()
     set(EDGESPLAT_WITH_CUDA ON)
   elseif(EDGESPLAT_CUDA STREQUAL "ON")
     message(FATAL_ERROR "No CUDA compiler: install a toolkit or run tools/setup --cuda, then configure again")
