@@ -134,6 +134,27 @@ GaussianCloud& Optimiser::edit_rows(std::span<const std::uint32_t> rows) {
   return cloud_;
 }
 
+Status Optimiser::raise_sh_degree(int sh_degree) {
+  if (sh_degree < cloud_.sh_degree || sh_degree > 3) {
+    return fail(Errc::kInvalidArgument, "cannot raise SH degree " + std::to_string(cloud_.sh_degree) +
+                                            " to " + std::to_string(sh_degree));
+  }
+  if (sh_degree == cloud_.sh_degree) return {};
+  const std::size_t floats = cloud_.sh_floats_each();
+  cloud_.sh_degree = options_.sh_degree = sh_degree;
+  const std::size_t wider = cloud_.sh_floats_each();
+  std::vector<float> sh(cloud_.size() * wider, 0.0F);
+  for (std::size_t row = 0; row < cloud_.size(); ++row)
+    std::copy_n(cloud_.sh.begin() + static_cast<std::ptrdiff_t>(row * floats), floats,
+                sh.begin() + static_cast<std::ptrdiff_t>(row * wider));
+  cloud_.sh = std::move(sh);
+  adam_.raise_sh_degree(sh_degree);
+  if (device_) restart_gpu();
+  changes_.begin();
+  for (std::size_t row = 0; row < cloud_.size(); ++row) changes_.touch(row);
+  return {};
+}
+
 void Optimiser::forget_moments(std::span<const std::uint32_t> rows) {
   for (const std::uint32_t row : rows) {
     if (device_) {

@@ -66,6 +66,13 @@ class Optimiser {
   /// and ids must stay.
   gaussian::GaussianCloud& edit_rows(std::span<const std::uint32_t> rows);
 
+  /// Rows get SH of a higher degree, zero at first, so that the map looks as before; all count as changed. On
+  /// a GPU moments start afresh.
+  /// kInvalidArgument for a lower degree or one above 3.
+  Status raise_sh_degree(int sh_degree);
+  /// From the next step on; as OptimiserOptions' and not checked again.
+  void set_rates(const train::LearningRates& rates);
+
   /// Rows whose values were set start afresh in Adam.
   void forget_moments(std::span<const std::uint32_t> rows);
 
@@ -112,6 +119,8 @@ class Optimiser {
   Result<StepReport> step_on_gpu(const TrainingView& view);
   /// Takes the GPU where there is one and it is wanted.
   void open_gpu();
+  /// Rows of another size: the device starts with them as new ones.
+  void restart_gpu();
   void give_up_gpu(const Error& error);
 
   OptimiserOptions options_;

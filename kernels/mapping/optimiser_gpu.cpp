@@ -54,6 +54,21 @@ Result<StepReport> Optimiser::step_on_gpu(const TrainingView& view) {
   return report;
 }
 
+void Optimiser::set_rates(const train::LearningRates& rates) {
+  options_.rates = rates;
+  if (device_) device_->set_rates(rates);
+}
+
+void Optimiser::restart_gpu() {
+  device_.reset();
+  open_gpu();
+  if (device_) {
+    device_->appended(cloud_.size());
+  } else {
+    adam_.resize(cloud_.size());
+  }
+}
+
 void Optimiser::give_up_gpu(const Error& error) {
   gpu_failure_ = error.context;
   device_.reset();

@@ -39,6 +39,8 @@ class StepDevice {
     changed_ = true;
   }
 
+  /// From the next step on.
+  virtual void set_rates(const train::LearningRates& rates) = 0;
   /// One step; `cloud` gets the new values of the rows in `moved`, which also tells how the picture saw them
   /// (its values are the parameters). kOutOfVram or what the device says: then nothing in `cloud` moved.
   [[nodiscard]] virtual Result<train::TrainReport> step(const TrainingView& view,

@@ -47,6 +47,8 @@ class CudaSteps : public StepDevice {
         steps_(pool_, options.adam),
         settings_(settings_of(options)) {}
 
+  void set_rates(const train::LearningRates& rates) override { settings_.rates = rates; }
+
   Result<train::TrainReport> step(const TrainingView& view, const train::TrainTarget& target,
                                   gaussian::GaussianCloud& cloud, train::GaussianGradients& moved) override {
     if (changed_) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/train/adam.cpp"
@@ -146,6 +147,19 @@ void Adam::keep_rows(std::span<const std::uint32_t> rows) {
     steps_[to] = steps_[from];
   }
   resize(rows.size());
+}
+
+void Adam::raise_sh_degree(int sh_degree) {
+  EDGESPLAT_CHECK(sh_degree >= sh_degree_, "a higher degree");
+  const std::size_t before = stride_, kept = ParameterRow::size(sh_degree_);
+  sh_degree_ = sh_degree;
+  stride_ = ParameterRow::stride(sh_degree);
+  for (std::vector<float>* moments : {&first_, &second_}) {
+    std::vector<float> wider(size() * stride_, 0.0F);
+    for (std::size_t row = 0; row < size(); ++row)
+      std::copy_n(&(*moments)[row * before], kept, &wider[row * stride_]);
+    *moments = std::move(wider);
+  }
 }
 
 void Adam::reset_row(std::size_t row) {

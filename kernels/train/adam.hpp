@@ -46,6 +46,8 @@ class Adam {
   void resize(std::size_t rows);
   /// Keeps the given rows, ascending, in that order.
   void keep_rows(std::span<const std::uint32_t> rows);
+  /// Rows get parameters of a higher SH degree, with zero moments; the others keep theirs.
+  void raise_sh_degree(int sh_degree);
   /// Forgets what is known of one row.
   void reset_row(std::size_t row);
   /// Moves the parameters of `rows` one step down and sets quaternions to unit length. `values` [rows,stride]

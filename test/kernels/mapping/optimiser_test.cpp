@@ -167,6 +167,35 @@ TEST_F(OptimiserTest, PadsRowsOfALowerDegreeAndRefusesAHigherOne) {
   EXPECT_FALSE(optimiser.add_rows(higher));
 }
 
+TEST_F(OptimiserTest, RaisesTheDegreeWithoutASeam) {
+  AnalyticScene scene(12, 60, 2);
+  gaussian::GaussianCloud start = scene.perturbed(1.0);
+  Optimiser raised = make(quick(), start), plain = make(quick(), start);
+  run(raised, scene, 6);
+  run(plain, scene, 6);
+  const ChangeMark mark = raised.mark();
+  ASSERT_TRUE(raised.raise_sh_degree(2));
+  ASSERT_TRUE(raised.cloud().consistent());
+  EXPECT_EQ(raised.cloud().sh_degree, 2);
+  EXPECT_EQ(raised.changed_since(mark).size(), raised.cloud().size());
+  // New terms are zero: the picture, its gradients by the old parameters and their moments are what they
+  // were.
+  run(raised, scene, 1);
+  run(plain, scene, 1);
+  for (std::size_t i = 0; i < plain.cloud().means_m.size(); ++i)
+    ASSERT_NEAR(raised.cloud().means_m[i], plain.cloud().means_m[i], 1e-6F);
+  bool learns = false;
+  for (std::size_t row = 0; row < plain.cloud().size(); ++row) {
+    for (std::size_t c = 0; c < 3; ++c)
+      ASSERT_NEAR(raised.cloud().sh[27 * row + c], plain.cloud().sh[3 * row + c], 1e-5F);
+    learns = learns || raised.cloud().sh[27 * row + 3] != 0.0F;
+  }
+  EXPECT_TRUE(learns);
+  EXPECT_FALSE(raised.raise_sh_degree(1));
+  EXPECT_FALSE(raised.raise_sh_degree(4));
+  EXPECT_EQ(raised.cloud().sh_degree, 2);
+}
+
 TEST_F(OptimiserTest, KeepsToItsBudget) {
   AnalyticScene scene(8, 100, 1);
   OptimiserOptions options = quick();
