@@ -18,6 +18,8 @@ struct PosedCamera {
   std::filesystem::path image;  ///< relative to the set's file; empty where there is none
   geometry::CameraModel camera;
   geometry::RigidTransform map_from_camera;
+  /// 16-bit PNG of the same view, mm along the camera's z; relative as well, empty where there is none
+  std::filesystem::path depth;
 };
 
 struct CameraSet {
@@ -34,8 +36,9 @@ struct CameraSet {
 ///   model, distortion and image may be absent.
 /// * {"frames": [{"file_path": ..., "transform_matrix": ...}]}: nerfstudio's transforms.json. Its cameras
 /// look
-///   along -z with y up and have pixel centres at 0.5: both are converted. Intrinsics (fl_x, fl_y, cx, cy, w,
-///   h, k1, k2, p1, p2, camera_model, or camera_angle_x) of a frame go before those of the file.
+///   along -z with y up and have pixel centres at 0.5: both are converted. A frame may name a
+///   depth_file_path. Intrinsics (fl_x, fl_y, cx, cy, w, h, k1, k2, p1, p2, camera_model, or camera_angle_x)
+///   of a frame go before those of the file.
 ///
 /// kCorrupt names the camera and what is wrong with it. A size that the file does not state is left at 0.
 [[nodiscard]] Result<CameraSet> parse_camera_set(std::string_view text);

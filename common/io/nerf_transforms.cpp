@@ -95,6 +95,8 @@ Result<PosedCamera> read_frame(const json::Json& frame, const json::Json& file) 
   EDGESPLAT_TRY(const auto image, json::text(frame, "file_path"));
   if (!image || image->empty()) return fail(Errc::kCorrupt, "\"file_path\" is missing");
   out.image = *image;
+  EDGESPLAT_TRY(const auto depth, json::text(frame, "depth_file_path"));
+  out.depth = depth.value_or("");
   EDGESPLAT_TRY(out.camera, read_camera(Intrinsics(frame, file)));
   EDGESPLAT_TRY(PoseRows pose, pose_rows(frame, "transform_matrix"));
   pose.middleCols<2>(1) *= -1.0;  // OpenGL's camera has y up and looks along -z

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/desk/scene.hpp"
 
+#include "common/io/atomic_file.hpp"
 #include "common/io/camera_set.hpp"
 #include "common/io/image_file.hpp"
 #include "common/thread/parallel_for.hpp"
@@ -10,11 +11,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
 namespace edgesplat::desk {
 namespace {
+
+constexpr std::uint64_t kMaxDepthFileBytes = std::uint64_t{256} << 20U;
 
 /// Frames mostly share one camera: where to look is worked out once for it.
 using Undistorters = std::vector<std::pair<geometry::CameraModel, std::shared_ptr<const image::Undistorter>>>;
@@ -62,11 +66,45 @@ std::vector<float> shrink_seen(const image::Undistorter& undistorter, int width_
   return out;
 }
 
-Result<ScenePicture> read_picture(const std::filesystem::path& file, const io::PosedCamera& posed,
-                                  const image::Undistorter& undistorter, const SceneOptions& options) {
-  EDGESPLAT_TRY(const auto picture, io::load_rgb8(file));
+struct Frame {
+  std::filesystem::path file;
+  std::filesystem::path depth;  ///< empty: none
+  const io::PosedCamera* posed = nullptr;
+  std::shared_ptr<const image::Undistorter> undistorter;
+};
+
+/// What the depth picture of a camera with distortion has at the pixels of the pinhole `camera`: the nearest
+/// pixel's, since a mean of near and far is neither.
+Result<std::vector<float>> read_depth(const std::filesystem::path& file,
+                                      const geometry::CameraModel& distorted,
+                                      const geometry::CameraModel& camera) {
+  EDGESPLAT_TRY(const auto bytes, io::read_file(file, kMaxDepthFileBytes));
+  auto depth_mm = io::decode_gray16(bytes);
+  if (!depth_mm) return fail(Errc::kCorrupt, file.string() + ": " + depth_mm.error().context);
+  if (depth_mm->width_px != distorted.width_px || depth_mm->height_px != distorted.height_px) {
+    return fail(Errc::kCorrupt, file.string() + " does not have the size of its picture");
+  }
+  std::vector<float> depth_m;
+  depth_m.reserve(static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px));
+  for (int y = 0; y < camera.height_px; ++y) {
+    for (int x = 0; x < camera.width_px; ++x) {
+      const auto at = distorted.project(camera.unproject(Eigen::Vector2d(x, y)));
+      const bool inside = at && distorted.contains(*at);
+      depth_m.push_back(
+          inside ? 1e-3F * static_cast<float>(*depth_mm->pixel(static_cast<int>(std::lround(at->x())),
+                                                               static_cast<int>(std::lround(at->y()))))
+                 : 0.0F);
+    }
+  }
+  return depth_m;
+}
+
+Result<ScenePicture> read_picture(const Frame& frame, const SceneOptions& options) {
+  const io::PosedCamera& posed = *frame.posed;
+  const image::Undistorter& undistorter = *frame.undistorter;
+  EDGESPLAT_TRY(const auto picture, io::load_rgb8(frame.file));
   if (picture.width_px != posed.camera.width_px || picture.height_px != posed.camera.height_px) {
-    return fail(Errc::kCorrupt, file.string() + " is " + std::to_string(picture.width_px) + "x" +
+    return fail(Errc::kCorrupt, frame.file.string() + " is " + std::to_string(picture.width_px) + "x" +
                                     std::to_string(picture.height_px) + ", its camera " +
                                     std::to_string(posed.camera.width_px) + "x" +
                                     std::to_string(posed.camera.height_px));
@@ -77,20 +115,16 @@ Result<ScenePicture> read_picture(const std::filesystem::path& file, const io::P
   out.camera = undistorter.model().scaled(shrink_factor(undistorter.model(), options));
   out.picture = shrink(undistorter.apply(picture), out.camera.width_px, out.camera.height_px);
   out.weight = shrink_seen(undistorter, out.camera.width_px, out.camera.height_px);
+  if (!frame.depth.empty()) {
+    EDGESPLAT_TRY(out.depth_m, read_depth(frame.depth, posed.camera, out.camera));
+  }
   return out;
 }
 
-struct Frame {
-  std::filesystem::path file;
-  const io::PosedCamera* posed = nullptr;
-  std::shared_ptr<const image::Undistorter> undistorter;
-};
-
 Status read_pictures(const std::vector<Frame>& frames, const SceneOptions& options, Scene& scene) {
   std::vector<Result<ScenePicture>> pictures(frames.size());
-  thread::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
-    pictures[i] = read_picture(frames[i].file, *frames[i].posed, *frames[i].undistorter, options);
-  });
+  thread::parallel_for(std::size_t{0}, frames.size(),
+                       [&](std::size_t i) { pictures[i] = read_picture(frames[i], options); });
   for (auto& picture : pictures) {
     if (!picture) return tl::unexpected(picture.error());
     scene.pictures.push_back(*std::move(picture));
@@ -113,7 +147,9 @@ Result<Scene> read_scene(const std::filesystem::path& folder, const SceneOptions
       ++scene.images_missing;
       continue;
     }
-    frames.push_back({image, &posed, undistorter_of(posed.camera, undistorters)});
+    auto depth = posed.depth.empty() ? posed.depth : file.parent_path() / posed.depth;
+    if (!depth.empty() && !std::filesystem::exists(depth, error)) depth.clear();
+    frames.push_back({image, std::move(depth), &posed, undistorter_of(posed.camera, undistorters)});
   }
   if (frames.empty()) {
     return fail(Errc::kNotFound, "none of the " + std::to_string(cameras.cameras.size()) + " images that " +

@@ -22,7 +22,8 @@ struct ScenePicture {
   geometry::CameraModel camera;
   geometry::RigidTransform map_from_camera;
   sensor::ImageRgb8 picture;
-  std::vector<float> weight;  ///< [H,W] 0 where undistorting found nothing, else 1; empty: 1 everywhere
+  std::vector<float> weight;   ///< [H,W] 0 where undistorting found nothing, else 1; empty: 1 everywhere
+  std::vector<float> depth_m;  ///< [H,W] along z, 0: not measured; empty: the scene has none of this view
 };
 
 /// A scene to train a map on, from a folder with nerfstudio's transforms.json.

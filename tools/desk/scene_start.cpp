@@ -11,7 +11,6 @@
 namespace edgesplat::desk {
 namespace {
 
-constexpr float kOpacity = 0.1F;
 /// Neighbours are looked for within shares of the scene's extent that double from the first to the last.
 constexpr float kFirstReach = 1.0F / 1024.0F;
 constexpr float kLastReach = 1.0F / 16.0F;
@@ -44,18 +43,18 @@ std::vector<float> spacings(std::span<const Eigen::Vector3f> points, float exten
 
 }  // namespace
 
-gaussian::GaussianCloud gaussians_of_points(const io::PointCloud& points, double extent, std::size_t most,
+gaussian::GaussianCloud gaussians_of_points(const io::PointCloud& points, const StartOptions& options,
                                             mapping::IdAllocator& ids) {
   std::vector<Eigen::Vector3f> means;
   std::vector<std::size_t> rows;
-  const std::size_t step =
-      std::max(std::size_t{1}, (points.points_m.size() + most - 1) / std::max(most, std::size_t{1}));
+  const std::size_t step = std::max(
+      std::size_t{1}, (points.points_m.size() + options.most - 1) / std::max(options.most, std::size_t{1}));
   for (std::size_t i = 0; i < points.points_m.size(); i += step) {
     if (!points.points_m[i].allFinite()) continue;
     means.push_back(points.points_m[i]);
     rows.push_back(i);
   }
-  const auto scale = static_cast<float>(extent);
+  const auto scale = static_cast<float>(options.extent);
   const auto spacing = spacings(means, scale);
   gaussian::GaussianCloud cloud;
   cloud.resize(means.size());
@@ -69,7 +68,7 @@ gaussian::GaussianCloud gaussians_of_points(const io::PointCloud& points, double
       cloud.sh[3 * row + i] = (colour - 0.5F) / gaussian::GaussianCloud::kShC0;
     }
     cloud.quats_xyzw[4 * row + 3] = 1.0F;
-    cloud.opacity_logits[row] = std::log(kOpacity / (1.0F - kOpacity));
+    cloud.opacity_logits[row] = std::log(options.opacity / (1.0F - options.opacity));
   }
   return cloud;
 }

@@ -17,9 +17,15 @@ namespace edgesplat::desk {
 /// where nothing agrees; kIo where OpenCV fails.
 [[nodiscard]] Result<io::PointCloud> triangulate(std::span<const ScenePicture* const> pictures);
 
-/// A Gaussian a point: round, as wide as its three nearest neighbours are far, opacity 0.1 (3DGS). Points
-/// without colour are grey; `extent` is the scene's (camera_extent()). At most `most` of them, evenly taken.
-[[nodiscard]] gaussian::GaussianCloud gaussians_of_points(const io::PointCloud& points, double extent,
-                                                          std::size_t most, mapping::IdAllocator& ids);
+struct StartOptions {
+  double extent = 1.0;         ///< of the scene (camera_extent())
+  std::size_t most = 100'000;  ///< Gaussians, evenly taken among the points
+  float opacity = 0.1F;        ///< 3DGS's; 0.01..0.9
+};
+/// A Gaussian a point: round, as wide as its three nearest neighbours are far. Points without colour are
+/// grey.
+[[nodiscard]] gaussian::GaussianCloud gaussians_of_points(const io::PointCloud& points,
+                                                          const StartOptions& options,
+                                                          mapping::IdAllocator& ids);
 
 }  // namespace edgesplat::desk

@@ -3,13 +3,11 @@
 #include "tools/desk/train_job.hpp"
 
 #include "common/io/gaussian_file.hpp"
-#include "common/io/image_file.hpp"
 #include "common/metrics/process_usage.hpp"
 #include "tools/desk/convert.hpp"
-#include "tools/desk/render_set.hpp"
+#include "tools/desk/quality_curve.hpp"
 #include "tools/desk/scene_start.hpp"
 #include "tools/quality/load_where_there.hpp"
-#include "tools/quality/picture_score.hpp"
 
 #include <utility>
 
@@ -48,48 +46,34 @@ Status take_start_points(const Pictures& pictures, Scene& scene, TrainReport& re
   return {};
 }
 
-/// Draws the held-out cameras from the map and compares with their pictures.
-Status score_held_out(const TrainJob& job, const gaussian::GaussianCloud& map, const Pictures& held_out,
-                      const Clock& clock, TrainReport& report) {
-  if (held_out.empty()) return {};
-  EDGESPLAT_TRY(auto lpips, quality::load_where_there<quality::Lpips>(job.lpips_model));
-  if (!job.renders.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(job.renders, error);
-    if (error)
-      return fail(Errc::kIo, "cannot make the folder " + job.renders.string() + ": " + error.message());
+/// Trains; where the job wants a curve, the map is scored meanwhile.
+Result<TrainedMap> train(const TrainJob& job, const Split& split, const io::PointCloud& points,
+                         quality::Lpips* lpips, const TrainClocks& clocks,
+                         const std::function<void(const TrainingProgress&)>& tell) {
+  TrainingWatch watch{tell, {}, {}};
+  std::optional<QualityCurve> curve;
+  if (!job.curve.empty()) {
+    EDGESPLAT_TRY(curve, QualityCurve::create(job.curve));
+    watch.look_at_s = curve_times_s();
+    watch.look = [&](const TrainingProgress& at, const gaussian::GaussianCloud& map) -> Status {
+      EDGESPLAT_TRY(const HeldOutMeans means, score_pictures(map, split.held_out, lpips, {}, clocks.wall));
+      return curve->add(at, means);
+    };
   }
-  quality::PictureScore sum{0.0, 0.0, lpips ? std::optional(0.0) : std::nullopt};
-  double sum_ms = 0.0;
-  for (const ScenePicture* picture : held_out) {
-    const io::PosedCamera camera{picture->name, {}, picture->camera, picture->map_from_camera};
-    EDGESPLAT_TRY(const RenderedView view, render_view(map, camera, {}, clock));
-    EDGESPLAT_TRY(const auto score, quality::score_picture(view.picture, picture->picture, picture->weight,
-                                                           lpips ? &*lpips : nullptr));
-    sum.psnr_db += score.psnr_db;
-    sum.ssim += score.ssim;
-    if (sum.lpips) *sum.lpips += score.lpips.value_or(0.0);
-    sum_ms += view.render_ms;
-    if (job.renders.empty()) continue;
-    EDGESPLAT_TRY_STATUS(io::save_image(job.renders / (picture->name + ".png"), view.picture));
-    EDGESPLAT_TRY_STATUS(io::save_image(job.renders / (picture->name + "_real.png"), picture->picture));
-  }
-  const double share = 1.0 / static_cast<double>(held_out.size());
-  report.psnr_db = sum.psnr_db * share;
-  report.ssim = sum.ssim * share;
-  if (sum.lpips) report.lpips = *sum.lpips * share;
-  report.render_ms = sum_ms * share;
-  return {};
+  return train_map(split.train, points, job.training, clocks.training, watch);
 }
 
 }  // namespace
 
-Result<TrainReport> run_train_job(const TrainJob& job, const Clock& clock,
+Result<TrainReport> run_train_job(const TrainJob& job, const TrainClocks& clocks,
                                   const std::function<void(const TrainingProgress&)>& tell) {
   if (const auto format = io::gaussian_format_of(job.out); !format) {
     return fail(Errc::kInvalidConfig, format.error().context);  // before the work, not after it
   }
   EDGESPLAT_TRY_STATUS(job.training.validate());
+  if (!job.curve.empty() && job.holdout == 0) {
+    return fail(Errc::kInvalidConfig, "a curve needs held-out pictures: give a holdout above 0");
+  }
   EDGESPLAT_TRY(Scene scene, read_scene(job.scene, job.pictures));
   const Split split = split_pictures(scene, job.holdout);
   TrainReport report;
@@ -99,7 +83,9 @@ Result<TrainReport> run_train_job(const TrainJob& job, const Clock& clock,
   report.width_px = scene.pictures.front().camera.width_px;
   report.height_px = scene.pictures.front().camera.height_px;
   EDGESPLAT_TRY_STATUS(take_start_points(split.train, scene, report));
-  EDGESPLAT_TRY(const TrainedMap trained, train_map(split.train, scene.points, job.training, clock, tell));
+  EDGESPLAT_TRY(auto network, quality::load_where_there<quality::Lpips>(job.lpips_model));
+  quality::Lpips* lpips = network ? &*network : nullptr;
+  EDGESPLAT_TRY(const TrainedMap trained, train(job, split, scene.points, lpips, clocks, tell));
   report.iterations = trained.iterations;
   report.train_seconds = trained.seconds;
   report.gaussians = trained.map.size();
@@ -109,7 +95,10 @@ Result<TrainReport> run_train_job(const TrainJob& job, const Clock& clock,
   sidecar.sky_included = true;
   EDGESPLAT_TRY(sidecar, save_map(job.out, trained.map, sidecar));
   EDGESPLAT_TRY(const auto written, io::read_gaussians(job.out));
-  EDGESPLAT_TRY_STATUS(score_held_out(job, written, split.held_out, clock, report));
+  if (!split.held_out.empty()) {
+    EDGESPLAT_TRY(report.held_out_means,
+                  score_pictures(written, split.held_out, lpips, job.renders, clocks.wall));
+  }
   report.peak_rss_mb = static_cast<double>(metrics::process_usage().peak_rss_bytes) / 1e6;
   return report;
 }

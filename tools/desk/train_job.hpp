@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tools/desk/held_out.hpp"
 #include "tools/desk/training.hpp"
 
 #include <filesystem>
@@ -14,6 +15,7 @@ struct TrainJob {
   std::filesystem::path scene;
   std::filesystem::path out;          ///< .ply, .spz or .splat
   std::filesystem::path renders;      ///< folder for what the held-out cameras show; empty: none
+  std::filesystem::path curve;        ///< CSV with the held-out quality over training time; empty: none
   std::filesystem::path lpips_model;  ///< folder of the network; empty or absent: no LPIPS
   std::size_t holdout = 8;            ///< frames 0, holdout, 2 holdout, ... are held out; 0: none
   SceneOptions pictures;
@@ -32,13 +34,19 @@ struct TrainReport {
   double train_seconds = 0.0;
   std::size_t gaussians = 0;
   double peak_rss_mb = 0.0;
-  // Means over the held-out pictures, drawn from the map as it was written; nothing where there are none.
-  std::optional<double> psnr_db, ssim, lpips, render_ms;
+  std::optional<HeldOutMeans>
+      held_out_means;  ///< drawn from the map as it was written; nothing: none held out
+};
+
+/// `training` ends a training that has seconds, and times its curve.
+struct TrainClocks {
+  const Clock& wall;
+  const Clock& training;
 };
 
 /// Errors: those of reading the scene, training and writing; kInvalidArgument where the scene has no point
 /// cloud and its pictures give too few points.
-[[nodiscard]] Result<TrainReport> run_train_job(const TrainJob& job, const Clock& clock,
+[[nodiscard]] Result<TrainReport> run_train_job(const TrainJob& job, const TrainClocks& clocks,
                                                 const std::function<void(const TrainingProgress&)>& tell);
 
 }  // namespace edgesplat::desk

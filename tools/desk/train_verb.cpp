@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
+#include "tools/desk/processor_clock.hpp"
 #include "tools/desk/train_job.hpp"
 #include "tools/desk/verbs.hpp"
 
@@ -8,7 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <string>
 
 namespace edgesplat::desk {
 namespace {
@@ -24,16 +27,19 @@ double rate_hz(const TrainReport& report) {
 }
 
 json to_json(const TrainReport& report, const TrainJob& job) {
+  const auto mean = [&report](auto field) {
+    return report.held_out_means ? json((*report.held_out_means).*field) : json(nullptr);
+  };
   return {{"map", job.out.string()},
-          {"psnr_db", or_null(report.psnr_db)},
-          {"ssim", or_null(report.ssim)},
-          {"lpips", or_null(report.lpips)},
+          {"psnr_db", mean(&HeldOutMeans::psnr_db)},
+          {"ssim", mean(&HeldOutMeans::ssim)},
+          {"lpips", or_null(report.held_out_means ? report.held_out_means->lpips : std::nullopt)},
           {"train_seconds", report.train_seconds},
           {"iterations", report.iterations},
           {"iterations_per_s", rate_hz(report)},
           {"gaussians", report.gaussians},
           {"peak_rss_mb", report.peak_rss_mb},
-          {"render_ms", or_null(report.render_ms)},
+          {"render_ms", mean(&HeldOutMeans::render_ms)},
           {"pictures", report.pictures},
           {"held_out", report.held_out},
           {"images_missing", report.images_missing},
@@ -50,23 +56,33 @@ void print_words(const TrainReport& report, const TrainJob& job) {
   if (report.images_missing > 0) {
     std::fprintf(stderr, "%zu frames of the scene have no image and were left out\n", report.images_missing);
   }
-  if (!report.psnr_db) return;
+  if (!report.held_out_means) return;
+  const HeldOutMeans& means = *report.held_out_means;
   std::fprintf(stderr, "%zu held-out pictures of %dx%d: PSNR %.2f dB, SSIM %.3f", report.held_out,
-               report.width_px, report.height_px, *report.psnr_db, *report.ssim);
-  if (report.lpips) std::fprintf(stderr, ", LPIPS %.3f", *report.lpips);
+               report.width_px, report.height_px, means.psnr_db, means.ssim);
+  if (means.lpips) std::fprintf(stderr, ", LPIPS %.3f", *means.lpips);
   std::fprintf(stderr, "\n");
 }
 
-Status run_train(const TrainJob& job, bool as_json) {
-  const SteadyClock clock;
+struct TrainVerbOptions {
+  TrainJob job;
+  bool processor_time = false;
+  bool json = false;
+};
+
+Status run_train(const TrainVerbOptions& options) {
+  const TrainJob& job = options.job;
+  const SteadyClock wall;
+  const ProcessorClock processor;
+  const TrainClocks clocks{wall, options.processor_time ? static_cast<const Clock&>(processor) : wall};
   const bool for_people = ::isatty(STDERR_FILENO) != 0;
-  EDGESPLAT_TRY(const TrainReport report, run_train_job(job, clock, [for_people](const TrainingProgress& p) {
+  EDGESPLAT_TRY(const TrainReport report, run_train_job(job, clocks, [for_people](const TrainingProgress& p) {
                   if (!for_people) return;
                   std::fprintf(stderr, "\r%8.1f s, iteration %llu, %zu Gaussians, loss %.4f ", p.seconds,
                                static_cast<unsigned long long>(p.iterations), p.gaussians, p.loss);
                 }));
   if (for_people) std::fprintf(stderr, "\n");
-  if (as_json) {
+  if (options.json) {
     std::printf("%s\n", to_json(report, job).dump(-1, ' ', false, json::error_handler_t::replace).c_str());
   } else {
     print_words(report, job);
@@ -74,12 +90,33 @@ Status run_train(const TrainJob& job, bool as_json) {
   return {};
 }
 
+/// Shares of the training, 0..1, and what weighs how much.
+void add_schedule_options(CLI::App& verb, TrainingOptions& training) {
+  mapping::ScheduleOptions& schedule = training.schedule;
+  const auto add = [&verb](const char* name, auto& value, const char* words) {
+    verb.add_option(name, value, words)->capture_default_str()->group("Schedule");
+  };
+  add("--coarse-until", schedule.coarse_until, "Pictures of half the size up to here");
+  add("--sh-from", schedule.sh_from, "One colour a Gaussian up to here, then SH");
+  add("--sh-every", schedule.sh_every, "One more degree of SH after so much");
+  add("--cool-from", schedule.cool_from, "Rates fall from here on");
+  add("--cool-to", schedule.cool_to, "... to this share of themselves");
+  add("--grow-from", schedule.grow_from, "Gaussians are added and removed from here on");
+  add("--grow-until", schedule.grow_until, "... up to here");
+  add("--loss-views", training.views.loss_share, "Extra turns of badly shown pictures, as a share of all");
+  add("--rates", training.rate_factor, "Factor of all learning rates");
+  add("--depth", training.depth_factor, "Weight of the depth loss, where the scene has depth");
+  add("--opacity-cost", training.opacity_factor, "Weight of the mean opacity");
+  add("--scale-cost", training.scale_factor, "Weight of the mean scale, in shares of the scene's extent");
+  add("--start-opacity", training.start_opacity, "Opacity of what is made of the points");
+}
+
 }  // namespace
 
 void add_train_verb(CLI::App& app, VerbContext& context) {
   auto* verb = app.add_subcommand("train", "Fit a map of Gaussians to the pictures of a scene");
-  auto job = std::make_shared<TrainJob>();
-  auto as_json = std::make_shared<bool>(false);
+  auto options = std::make_shared<TrainVerbOptions>();
+  TrainJob* job = &options->job;
   TrainingOptions& training = job->training;
   job->lpips_model = "../shared/models/lpips_alex";
   verb->add_option("--scene", job->scene, "Folder with a transforms.json (nerfstudio)")->required();
@@ -96,18 +133,24 @@ void add_train_verb(CLI::App& app, VerbContext& context) {
   verb->add_option("--max-side", job->pictures.max_side_px, "Longer side of the pictures at most, px")
       ->check(CLI::Range(32, 16384))
       ->capture_default_str();
-  verb->add_option("--sh-degree", training.sh_degree, "Spherical harmonics of the colours")
+  verb->add_option("--sh-degree", training.schedule.sh_degree, "Spherical harmonics of the colours")
       ->check(CLI::Range(0, 3))
       ->capture_default_str();
   verb->add_option("--max-gaussians", training.max_gaussians, "Size of the map at most")
       ->check(CLI::Range(10, 100'000'000))
       ->capture_default_str();
+  verb->add_option("--densify", training.densify, "gradient (3DGS) or mcmc")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Densify>{{"gradient", Densify::kGradient}, {"mcmc", Densify::kMcmc}}));
+  add_schedule_options(*verb, training);
   verb->add_option("--lpips", job->lpips_model, "Folder of the LPIPS network; without it there is no LPIPS")
       ->envname("EDGESPLAT_LPIPS")
       ->capture_default_str();
-  verb->add_flag("--json", *as_json, "Print one JSON line on stdout");
-  verb->callback(
-      [job, as_json, &context] { context.work = [job, as_json] { return run_train(*job, *as_json); }; });
+  verb->add_option("--curve", job->curve, "CSV for the held-out quality over training time");
+  verb->add_flag("--processor-time", options->processor_time,
+                 "Seconds are of processor time over all cores: for figures on a busy machine");
+  verb->add_flag("--json", options->json, "Print one JSON line on stdout");
+  verb->callback([options, &context] { context.work = [options] { return run_train(*options); }; });
 }
 
 }  // namespace edgesplat::desk

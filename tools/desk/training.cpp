@@ -5,11 +5,12 @@
 #include "common/sensor/image_values.hpp"
 #include "kernels/mapping/densify.hpp"
 #include "kernels/mapping/optimiser.hpp"
+#include "kernels/mapping/relocate.hpp"
+#include "tools/desk/picture_stages.hpp"
 #include "tools/desk/scene_start.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
 namespace edgesplat::desk {
@@ -23,10 +24,14 @@ constexpr std::uint16_t kOrigin = 1;
 
 mapping::OptimiserOptions optimiser_options(const TrainingOptions& options) {
   mapping::OptimiserOptions out;
-  out.sh_degree = options.sh_degree;
+  out.sh_degree = mapping::Schedule(options.schedule).sh_degree(0.0);
   out.max_gaussians = options.max_gaussians;
   out.rates.mean_m = 1.6e-4F * static_cast<float>(kTrainingExtent_m);
   out.rates.opacity_logit = 5e-2F;
+  out.rates = mapping::scaled(out.rates, options.rate_factor);
+  out.depth_factor = options.depth_factor;
+  out.opacity_factor = options.opacity_factor;
+  out.scale_factor = options.scale_factor / static_cast<float>(kTrainingExtent_m);
   out.exposure.rate = options.learn_exposure ? 1e-3F : 0.0F;
   return out;
 }
@@ -40,25 +45,14 @@ mapping::DensifyOptions densify_options() {
   return out;
 }
 
-/// One picture after the other in shuffled rounds.
-class Rounds {
- public:
-  explicit Rounds(std::size_t count) : order_(count) {
-    for (std::size_t i = 0; i < count; ++i) order_[i] = i;
-  }
-  std::size_t next() {
-    if (at_ == 0) {
-      for (std::size_t i = order_.size(); i > 1; --i) std::swap(order_[i - 1], order_[random_() % i]);
-      at_ = order_.size();
-    }
-    return order_[--at_];
-  }
-
- private:
-  std::vector<std::size_t> order_;
-  std::size_t at_ = 0;
-  std::mt19937 random_{1};
-};
+mapping::RelocateOptions relocate_options(const TrainingOptions& options) {
+  mapping::RelocateOptions out;
+  out.max_rows = options.max_gaussians;
+  out.max_sigma_m = 0.5F * static_cast<float>(kTrainingExtent_m);
+  // 5e5 times the means' rate in the paper, where a scene's extent is 1.
+  out.noise_per_m = 5e5F * 1.6e-4F / static_cast<float>(kTrainingExtent_m);
+  return out;
+}
 
 class Training {
  public:
@@ -66,27 +60,37 @@ class Training {
            mapping::Optimiser optimiser, mapping::IdAllocator ids, const Clock& clock)
       : pictures_(pictures),
         options_(options),
+        schedule_(options.schedule),
+        rates_(optimiser.options().rates),
         scale_(scale),
         optimiser_(std::move(optimiser)),
         ids_(ids),
-        rounds_(pictures.size()),
+        relocator_(relocate_options(options)),
+        order_(pictures.size(), options.views),
         clock_(clock) {}
 
-  Result<TrainedMap> run(const std::function<void(const TrainingProgress&)>& tell) {
-    const HostTime begin = clock_.now();
+  Result<TrainedMap> run(const TrainingWatch& watch) {
     double told_s = 0.0;
+    std::size_t looked = 0;  // at times of the watch
     while (progress() < 1.0) {
+      const HostTime begin = clock_.now();
       EDGESPLAT_TRY_STATUS(iterate());
-      state_.seconds = to_seconds(clock_.now() - begin);
-      if (state_.seconds < told_s + 1.0) continue;
-      told_s = state_.seconds;
-      tell(state_);
+      state_.seconds += to_seconds(clock_.now() - begin);
+      if (watch.tell && state_.seconds >= told_s + 1.0) {
+        told_s = state_.seconds;
+        watch.tell(state_);
+      }
+      const std::size_t before = looked;
+      while (looked < watch.look_at_s.size() && watch.look_at_s[looked] <= state_.seconds) ++looked;
+      if (watch.look && looked > before && progress() < 1.0) {
+        EDGESPLAT_TRY_STATUS(watch.look(state_, map_in_scene()));
+      }
     }
-    tell(state_);
-    TrainedMap out{optimiser_.cloud(), state_.iterations, state_.seconds};
-    const auto back = static_cast<float>(1.0 / scale_);
-    for (float& value : out.map.means_m) value *= back;
-    for (float& value : out.map.log_scales) value += std::log(back);
+    if (watch.tell) watch.tell(state_);
+    TrainedMap out{map_in_scene(), state_.iterations, state_.seconds};
+    if (watch.look) {
+      EDGESPLAT_TRY_STATUS(watch.look(state_, out.map));
+    }
     return out;
   }
 
@@ -99,9 +103,29 @@ class Training {
     return std::max(of_iterations, of_time);
   }
 
-  Status iterate() {
-    const std::size_t index = rounds_.next();
-    const ScenePicture& picture = *pictures_[index];
+  /// As it is now, in the scene's units.
+  [[nodiscard]] gaussian::GaussianCloud map_in_scene() const {
+    gaussian::GaussianCloud map = optimiser_.cloud();
+    const auto back = static_cast<float>(1.0 / scale_);
+    for (float& value : map.means_m) value *= back;
+    for (float& value : map.log_scales) value += std::log(back);
+    return map;
+  }
+
+  /// Brings the optimiser to where the schedule is.
+  Status follow_schedule() {
+    const double now = progress();
+    EDGESPLAT_TRY_STATUS(optimiser_.raise_sh_degree(schedule_.sh_degree(now)));
+    optimiser_.set_rates(mapping::scaled(rates_, schedule_.rate_share(now)));
+    const int shrink = schedule_.shrink(now);
+    if (shrink < shrink_) pictures_.forget_small();
+    shrink_ = shrink;
+    return {};
+  }
+
+  /// The view of a picture; `colour_` and `depth_m_` hold its values.
+  Result<mapping::TrainingView> view_of(std::size_t index) {
+    const ScenePicture& picture = pictures_.at(index, shrink_);
     geometry::RigidTransform camera_from_map = picture.map_from_camera.inverse();
     camera_from_map.translation_m *= scale_;
     mapping::TrainingView view;
@@ -109,26 +133,50 @@ class Training {
     sensor::to_unit_floats(picture.picture, colour_);
     view.colour = colour_;
     view.weight = picture.weight;
+    if (options_.depth_factor > 0.0F && !picture.depth_m.empty()) {
+      depth_m_ = picture.depth_m;
+      for (float& depth_m : depth_m_) depth_m *= static_cast<float>(scale_);
+      view.depth_m = depth_m_;
+    }
     if (options_.learn_exposure) view.exposure_key = static_cast<std::uint32_t>(index);
+    return view;
+  }
+
+  void densify() {
+    if (options_.densify == Densify::kGradient) {
+      (void)mapping::densify(optimiser_, densify_options(), ids_);
+    } else {
+      (void)relocator_.relocate(optimiser_, ids_);
+    }
+  }
+
+  Status iterate() {
+    EDGESPLAT_TRY_STATUS(follow_schedule());
+    const std::size_t index = order_.next();
+    EDGESPLAT_TRY(const mapping::TrainingView view, view_of(index));
     EDGESPLAT_TRY(const mapping::StepReport report, optimiser_.step(view));
+    order_.tell(index, report.loss);
+    if (options_.densify == Densify::kMcmc) relocator_.shake(optimiser_, schedule_.rate_share(progress()));
     constexpr double kSmoothing = 0.02;
     state_.loss += (state_.iterations == 0 ? 1.0 : kSmoothing) * (report.loss - state_.loss);
     ++state_.iterations;
-    if (state_.iterations % options_.densify_every == 0 && progress() < options_.densify_until) {
-      (void)mapping::densify(optimiser_, densify_options(), ids_);
-    }
+    if (state_.iterations % options_.densify_every == 0 && schedule_.grows(progress())) densify();
     state_.gaussians = optimiser_.cloud().size();
     return {};
   }
 
-  std::span<const ScenePicture* const> pictures_;
+  PictureStages pictures_;
   const TrainingOptions& options_;
+  mapping::Schedule schedule_;
+  train::LearningRates rates_;  ///< at the start
   double scale_;
   mapping::Optimiser optimiser_;
   mapping::IdAllocator ids_;
-  Rounds rounds_;
+  mapping::Relocator relocator_;
+  mapping::ViewOrder order_;
+  int shrink_ = 1;
   const Clock& clock_;
-  std::vector<float> colour_;
+  std::vector<float> colour_, depth_m_;
   TrainingProgress state_;
 };
 
@@ -149,13 +197,20 @@ Status TrainingOptions::validate() const {
     return fail(Errc::kInvalidConfig, "training has no end: give iterations or seconds");
   }
   if (densify_every == 0) return fail(Errc::kInvalidConfig, "densify_every must not be 0");
-  if (sh_degree < 0 || sh_degree > 3) return fail(Errc::kInvalidConfig, "sh_degree must be 0..3");
-  return {};
+  if (!(start_opacity >= 0.01F && start_opacity <= 0.9F)) {
+    return fail(Errc::kInvalidConfig, "start_opacity must be 0.01..0.9");
+  }
+  if (!(rate_factor >= 0.1F && rate_factor <= 10.0F)) {
+    return fail(Errc::kInvalidConfig, "rate_factor must be 0.1..10");
+  }
+  if (!(views.loss_share >= 0.0F && views.loss_share <= 10.0F)) {
+    return fail(Errc::kInvalidConfig, "views.loss_share must be 0..10");
+  }
+  return schedule.validate();
 }
 
 Result<TrainedMap> train_map(std::span<const ScenePicture* const> pictures, const io::PointCloud& points,
-                             const TrainingOptions& options, const Clock& clock,
-                             const std::function<void(const TrainingProgress&)>& tell) {
+                             const TrainingOptions& options, const Clock& clock, const TrainingWatch& watch) {
   EDGESPLAT_TRY_STATUS(options.validate());
   EDGESPLAT_TRY_STATUS(check(pictures, points));
   const double extent = camera_extent(pictures);
@@ -163,10 +218,11 @@ Result<TrainedMap> train_map(std::span<const ScenePicture* const> pictures, cons
   mapping::IdAllocator ids(kOrigin);
   io::PointCloud scaled = points;
   for (Eigen::Vector3f& point : scaled.points_m) point *= static_cast<float>(scale);
-  const auto start = gaussians_of_points(scaled, kTrainingExtent_m, options.max_start_points, ids);
+  const auto start =
+      gaussians_of_points(scaled, {kTrainingExtent_m, options.max_start_points, options.start_opacity}, ids);
   EDGESPLAT_TRY(auto optimiser, mapping::Optimiser::create(optimiser_options(options), clock));
   EDGESPLAT_TRY([[maybe_unused]] const std::size_t added, optimiser.add_rows(start));
-  return Training(pictures, options, scale, std::move(optimiser), ids, clock).run(tell);
+  return Training(pictures, options, scale, std::move(optimiser), ids, clock).run(watch);
 }
 
 }  // namespace edgesplat::desk

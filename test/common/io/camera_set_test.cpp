@@ -25,7 +25,7 @@ constexpr std::string_view kNerf = R"({
   "fl_x": 100, "w": 64, "h": 48, "cx": 32, "cy": 24, "k1": 0.1, "p2": 0.3, "ply_file_path": "points.ply",
   "frames": [
     {"file_path": "./images/a.png", "transform_matrix": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]},
-    {"file_path": "images/b/a.png", "fl_x": 200, "k1": 0, "transform_matrix": [[2,0,0,1],[0,2,0,2],[0,0,2,3]]}]})";
+    {"file_path": "images/b/a.png", "depth_file_path": "depth/a.png", "fl_x": 200, "k1": 0, "transform_matrix": [[2,0,0,1],[0,2,0,2],[0,0,2,3]]}]})";
 
 std::string refusal(std::string text, std::string_view from, std::string_view to) {
   text.replace(text.find(from), from.size(), to);
@@ -56,6 +56,8 @@ TEST(CameraSet, ReadsNerfstudiosForm) {
   const PosedCamera& second = set->cameras[1];
   EXPECT_EQ(first.name, "a");
   EXPECT_EQ(second.name, "a_1");
+  EXPECT_TRUE(first.depth.empty());
+  EXPECT_EQ(second.depth, "depth/a.png");
   // The middle of a 64 px wide picture lies between pixels 31 and 32.
   EXPECT_EQ(first.camera.cx_px, 31.5);
   EXPECT_THAT(first.camera.distortion, ElementsAre(0.1, 0.0, 0.0, 0.3));
@@ -105,6 +107,7 @@ TEST(CameraSet, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(nerf, "\"fl_x\": 100", "\"camera_model\": \"EQUIRECTANGULAR\""),
               HasSubstr("EQUIRECTANGULAR"));
   EXPECT_THAT(refusal(nerf, "./images/a.png", ""), HasSubstr("frame 0: \"file_path\""));
+  EXPECT_THAT(refusal(nerf, "\"depth/a.png\"", "7"), HasSubstr("\"depth_file_path\" is not a text"));
   EXPECT_THAT(parse_camera_set("{\"frames\": []}").error().context, HasSubstr("no camera"));
   EXPECT_EQ(read_camera_set("/nonexistent.json").error().code, Errc::kNotFound);
 }

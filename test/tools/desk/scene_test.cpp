@@ -81,6 +81,38 @@ TEST(ReadScene, ReadsItsPointsAndUndistorts) {
   EXPECT_EQ(pillow->pictures[0].weight[20 * 60 + 30], 1.0F);
 }
 
+TEST(ReadScene, ReadsDepthAndUndistortsIt) {
+  const test::TempDir folder;
+  ASSERT_TRUE(io::save_image(folder / "a.png", sensor::ImageRgb8(60, 40, 200)));
+  sensor::ImageGray16 depth_mm(60, 40);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 60; ++x) *depth_mm.pixel(x, y) = static_cast<std::uint16_t>(1000 + 10 * x);
+  }
+  ASSERT_TRUE(io::save_image(folder / "d.png", depth_mm));
+  const auto write = [&folder](const std::string& k1) {
+    folder.write("transforms.json", R"({"fl_x": 40, "w": 60, "h": 40, "k1": )" + k1 + R"(, "frames": [
+      {"file_path": "a.png", "depth_file_path": "d.png", "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}]})");
+  };
+  write("0");
+  const auto straight = read_scene(folder.path(), {});
+  ASSERT_TRUE(straight) << straight.error().context;
+  ASSERT_EQ(straight->pictures[0].depth_m.size(), 60U * 40U);
+  EXPECT_NEAR(straight->pictures[0].depth_m[20 * 60 + 50], 1.5F, 1e-4F);
+  write("0.2");  // pixel 50 of the pinhole was seen farther out, the corner not at all
+  const auto pillow = read_scene(folder.path(), {});
+  ASSERT_TRUE(pillow) << pillow.error().context;
+  const double x = (50.0 - 29.5) / 40.0, y = (20.0 - 19.5) / 40.0;
+  const double seen_at = 29.5 + 40.0 * x * (1.0 + 0.2 * (x * x + y * y));
+  EXPECT_NEAR(pillow->pictures[0].depth_m[20 * 60 + 50], 1.0 + 0.01 * std::round(seen_at), 1e-4);
+  EXPECT_EQ(pillow->pictures[0].depth_m[0], 0.0F);
+  ASSERT_TRUE(io::save_image(folder / "d.png", sensor::ImageGray16(30, 20)));
+  EXPECT_THAT(read_scene(folder.path(), {}).error().context, HasSubstr("d.png"));
+  ASSERT_TRUE(io::save_image(folder / "d.png", sensor::ImageRgb8(60, 40)));
+  EXPECT_THAT(read_scene(folder.path(), {}).error().context, HasSubstr("d.png"));
+  std::filesystem::remove(folder / "d.png");
+  EXPECT_TRUE(read_scene(folder.path(), {}).value().pictures[0].depth_m.empty());
+}
+
 TEST(ReadScene, SaysWhatIsWrong) {
   const test::TempDir folder;
   EXPECT_EQ(read_scene(folder / "nowhere", {}).error().code, Errc::kNotFound);
@@ -113,7 +145,7 @@ TEST(Triangulate, FindsTheWall) {
 }
 
 TEST(Triangulate, PicturesOfNothingGiveNoPoints) {
-  const ScenePicture blank{"a", WallScene::camera(64, 48), WallScene::pose(0), {64, 48}, {}};
+  const ScenePicture blank{"a", WallScene::camera(64, 48), WallScene::pose(0), {64, 48}, {}, {}};
   ScenePicture other = blank;
   other.map_from_camera = WallScene::pose(3);
   EXPECT_TRUE(triangulate(pointers({blank, other})).value().points_m.empty());
@@ -129,14 +161,14 @@ TEST(GaussiansOfPoints, AreAsWideAsTheirNeighboursAreFar) {
   points.points_m.emplace_back(3.0F, 0.0F, 0.0F);  // far from all others
   points.rgb.assign(points.points_m.size(), {255, 128, 0});
   mapping::IdAllocator ids(1);
-  const auto cloud = gaussians_of_points(points, 5.0, 1000, ids);
+  const auto cloud = gaussians_of_points(points, {5.0, 1000}, ids);
   ASSERT_TRUE(cloud.consistent());
   ASSERT_EQ(cloud.size(), 65U);
   EXPECT_NEAR(cloud.log_scales[3 * 27], std::log(0.01F), 1e-3F);  // in the middle: all three at 1 cm
   EXPECT_NEAR(cloud.log_scales[3 * 64], std::log(5.0F / 16.0F), 1e-3F);
   EXPECT_NEAR(0.5F + gaussian::GaussianCloud::kShC0 * cloud.sh[0], 1.0F, 1e-5F);
   EXPECT_NEAR(cloud.opacity_logits[0], std::log(1.0F / 9.0F), 1e-4F);
-  EXPECT_LE(gaussians_of_points(points, 5.0, 20, ids).size(), 20U);
+  EXPECT_LE(gaussians_of_points(points, {5.0, 20}, ids).size(), 20U);
 }
 
 }  // namespace

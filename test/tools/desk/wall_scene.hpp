@@ -65,7 +65,7 @@ struct WallScene {
   }
   static ScenePicture shoot(int i, int width_px, int height_px) {
     ScenePicture out{
-        "view" + std::to_string(i), camera(width_px, height_px), pose(i), {width_px, height_px}, {}};
+        "view" + std::to_string(i), camera(width_px, height_px), pose(i), {width_px, height_px}, {}, {}};
     for (int y = 0; y < height_px; ++y) {
       for (int x = 0; x < width_px; ++x) {
         const Eigen::Vector3d ray = out.map_from_camera.rotation * out.camera.unproject({x, y});
