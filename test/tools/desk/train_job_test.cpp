@@ -110,7 +110,9 @@ TEST(TrainJob, WritesItsCurve) {
     EXPECT_GT(iterations, 0U);
     EXPECT_GE(gaussians, 10U);
     EXPECT_TRUE(ssim > 0.0 && ssim < 1.0) << line;
-    if (!seconds.empty()) EXPECT_GT(at, seconds.back());
+    if (!seconds.empty()) {
+      EXPECT_GT(at, seconds.back());
+    }
     seconds.push_back(at);
     psnr_db.push_back(psnr);
   }
