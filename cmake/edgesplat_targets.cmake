@@ -27,10 +27,10 @@ function(edgesplat_executable)
   edgesplat_set_warnings(${ARG_NAME})
 endfunction()
 
-# edgesplat_test(NAME common_base SOURCES a_test.cpp LINK edgesplat_common_base [LABELS unit] [TIMEOUT s]):
+# edgesplat_test(NAME common_base SOURCES a_test.cpp LINK edgesplat_common_base [LABELS unit] [TIMEOUT s] [SERIAL]):
 # one binary test_<NAME>; every TEST in it is a ctest of its own, named <NAME>/<suite>.<test>.
 function(edgesplat_test)
-  cmake_parse_arguments(ARG "" "NAME;TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL" "NAME;TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   set(target test_${ARG_NAME})
   add_executable(${target} ${ARG_SOURCES})
   target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR})
@@ -48,8 +48,9 @@ function(edgesplat_test)
   if(EDGESPLAT_SANITIZE)
     math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")  # so much slower, at worst
   endif()
+  # SERIAL: beside nothing else, for what is about seconds on the wall.
   gtest_discover_tests(${target} TEST_PREFIX ${ARG_NAME}/ DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL})
 endfunction()
 
 # edgesplat_fuzzer(NAME livox_protocol SOURCES livox_protocol_fuzz.cpp LINK ...): libFuzzer target fuzz_<NAME>;

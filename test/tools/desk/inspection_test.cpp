@@ -131,7 +131,7 @@ TEST(InspectTrajectory, MeasuresPathRateAndOrder) {
 }
 
 TEST(InspectFile, RefusesWhatItDoesNotKnow) {
-  EXPECT_EQ(inspect_file("a.bag").error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(inspect_file("a.jpeg").error().code, Errc::kInvalidArgument);
   EXPECT_FALSE(inspect_file(file_named("never_written.mcap")));
   ASSERT_TRUE(io::write_file_atomically(file_named("noise.ply"), std::string_view("not a ply file")));
   EXPECT_FALSE(inspect_file(file_named("noise.ply")));
