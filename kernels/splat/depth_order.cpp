@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <memory>
 
 namespace edgesplat::splat {
@@ -55,21 +54,6 @@ void sort_by_depth(std::vector<DepthKey>& keys, std::vector<DepthKey>& other) {
     sort_by_digit(keys, pass, *places, other);
     keys.swap(other);
   }
-}
-
-std::vector<Splat> sorted_by_depth(const std::vector<Splat>& splats) {
-  std::vector<DepthKey> keys(splats.size()), other;
-  // Positive floats sort as their bits do.
-  for (std::size_t i = 0; i < splats.size(); ++i)
-    keys[i] = {std::bit_cast<std::uint32_t>(splats[i].depth_m), static_cast<std::uint32_t>(i)};
-  sort_by_depth(keys, other);
-  std::vector<Splat> sorted;
-  sorted.reserve(splats.size());
-  for (const DepthKey& key : keys) {
-    sorted.push_back(splats[key.index]);
-    sorted.back().order = key.index;
-  }
-  return sorted;
 }
 
 }  // namespace edgesplat::splat

@@ -12,8 +12,4 @@ namespace edgesplat::splat {
 /// Nearest first, ties in the order given. Depths must be positive. `other` is memory to work in.
 void sort_by_depth(std::vector<DepthKey>& keys, std::vector<DepthKey>& other);
 
-/// Visible splats in the order of their rows, nearest first and with that order noted: what every backend
-/// hands to the tiles.
-[[nodiscard]] std::vector<Splat> sorted_by_depth(const std::vector<Splat>& splats);
-
 }  // namespace edgesplat::splat
