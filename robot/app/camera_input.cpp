@@ -33,7 +33,7 @@ class SocketCamera final : public CameraInput {
         }
       }
       if (!received) continue;
-      if (recorder != nullptr) recorder->on_frame(received->frame, received->arrival);
+      if (recorder != nullptr) recorder->on_frame(received->frame, received->arrival, received->arrival);
       auto measurement = source_.on_frame(received->frame, received->arrival);
       if (measurement) sink(std::move(*measurement));
     }
@@ -66,8 +66,9 @@ void publish_pulses(const sync::TriggerCounters& c, metrics::Registry& metrics) 
 
 class GigeCameraInput final : public CameraInput {
  public:
-  GigeCameraInput(std::unique_ptr<aravis::GigeCamera> camera, sync::TriggeredStamps* pulses)
-      : camera_(std::move(camera)), pulses_(pulses) {}
+  GigeCameraInput(std::unique_ptr<aravis::GigeCamera> camera, sync::TriggeredStamps* pulses,
+                  const Clock& clock)
+      : camera_(std::move(camera)), pulses_(pulses), clock_(clock) {}
 
   void receive(const std::stop_token& stop, const Sink& sink, replay::Recorder* recorder) override {
     while (!stop.stop_requested()) {
@@ -75,8 +76,10 @@ class GigeCameraInput final : public CameraInput {
       if (!measurement) continue;
       auto& frame = std::get<sensor::CameraFrame>(*measurement);
       if (pulses_ != nullptr && !pulses_->stamp(frame)) continue;
-      if (recorder != nullptr) record_picture(frame, *recorder);
+      const HostTime handed_on = clock_.now();
+      const sensor::CameraFrame recorded = frame;  // shares the picture
       sink(std::move(*measurement));
+      if (recorder != nullptr) record_picture(recorded, handed_on, *recorder);
     }
   }
 
@@ -107,6 +110,7 @@ class GigeCameraInput final : public CameraInput {
  private:
   std::unique_ptr<aravis::GigeCamera> camera_;
   sync::TriggeredStamps* pulses_;
+  const Clock& clock_;
 };
 
 }  // namespace
@@ -117,7 +121,7 @@ Result<std::unique_ptr<CameraInput>> open_camera(const robot_config::CameraSetti
   const int width_px = mount.model.width_px, height_px = mount.model.height_px;
   if (config.source == robot_config::CameraSource::kGige) {
     EDGESPLAT_TRY(auto camera, aravis::GigeCamera::create(config.gige, {width_px, height_px}, clock));
-    return std::make_unique<GigeCameraInput>(std::move(camera), pulses);
+    return std::make_unique<GigeCameraInput>(std::move(camera), pulses, clock);
   }
   frame_socket::FrameClientConfig socket;
   socket.host = config.host;

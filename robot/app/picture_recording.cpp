@@ -14,7 +14,7 @@ constexpr int kPngLevel = 1;
 
 }  // namespace
 
-void record_picture(const sensor::CameraFrame& frame, replay::Recorder& recorder) {
+void record_picture(const sensor::CameraFrame& frame, HostTime handed_on, replay::Recorder& recorder) {
   auto encoded = io::encode_png(*frame.image, kPngLevel);
   if (!encoded) {
     EDGESPLAT_LOG_WARN("recorder", "picture left out", "why", encoded.error().context);
@@ -32,7 +32,7 @@ void record_picture(const sensor::CameraFrame& frame, replay::Recorder& recorder
   out.payload = *std::move(encoded);
   out.header.payload_bytes = static_cast<std::uint32_t>(out.payload.size());
   out.header.payload_crc32 = frame_socket::crc32(out.payload);
-  recorder.on_frame(out, frame.arrival);
+  recorder.on_frame(out, frame.arrival, handed_on);
 }
 
 }  // namespace edgesplat::app

@@ -44,6 +44,7 @@ class McapRecording final : public ReplaySource::Reader {
   sensor::Rig rig_;
   livox::LivoxSource livox_;
   std::optional<io::FrameMeta> meta_;  ///< of the picture that comes next
+  HostTime picture_arrival_{};         ///< of that picture; its own message tells when it was handed on
   std::uint64_t measurements_ = 0;
   std::uint64_t bad_messages_ = 0;
   std::uint64_t frames_refused_ = 0;
@@ -89,6 +90,7 @@ void McapRecording::keep_meta(const io::McapMessage& message) {
     return;
   }
   meta_ = *meta;
+  picture_arrival_ = message.log_time;
   meta_->stamp = message.publish_time;  // the message itself holds 32-bit seconds
 }
 
@@ -107,7 +109,7 @@ std::optional<sensor::Measurement> McapRecording::convert_image(const io::McapMe
                         std::to_string(rig_.camera->model.height_px));
   sensor::CameraFrame frame;
   frame.stamp = meta->stamp;
-  frame.arrival = message.log_time;
+  frame.arrival = picture_arrival_;
   frame.stamp_source = meta->stamp_source;
   frame.sequence = meta->sequence;
   frame.exposure_s = meta->exposure_s;

@@ -7,6 +7,7 @@
 #include "common/io/ros_messages.hpp"
 #include "robot/drivers/livox/sdk1_packet.hpp"
 
+#include <algorithm>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -88,8 +89,8 @@ void Recorder::on_datagram(const livox::Datagram& datagram) {
       datagram.bytes.size());  // a full queue counts by itself
 }
 
-void Recorder::on_frame(const frame_socket::EncodedFrame& frame, HostTime arrival) {
-  (void)queue_.push(QueuedFrame{arrival, frame}, frame.payload.size());
+void Recorder::on_frame(const frame_socket::EncodedFrame& frame, HostTime arrival, HostTime handed_on) {
+  (void)queue_.push(QueuedFrame{arrival, std::max(arrival, handed_on), frame}, frame.payload.size());
 }
 
 Result<bool> Recorder::write_next(const std::stop_token& stop) {
@@ -164,7 +165,7 @@ Status Recorder::write(const QueuedFrame& queued) {
   image.frame_id = "camera";
   image.format = header.format == frame_socket::PictureFormat::kPng ? "png" : "jpeg";
   image.encoded = queued.frame.payload;
-  return write(kImage, queued.arrival, header.stamp, io::encode(image));
+  return write(kImage, queued.handed_on, header.stamp, io::encode(image));
 }
 
 Status Recorder::write(Topic topic, HostTime arrival, SensorTime stamp, std::span<const std::byte> payload) {

@@ -52,7 +52,9 @@ class Recorder {
                                                   const RecorderConfig& config = {});
 
   void on_datagram(const livox::Datagram& datagram);
-  void on_frame(const frame_socket::EncodedFrame& frame, HostTime arrival);
+  /// `handed_on`: when the robot's own chain gets the picture, which is after a camera's resends; a replay
+  /// hands it on among the same points, so that it finds the same groups.
+  void on_frame(const frame_socket::EncodedFrame& frame, HostTime arrival, HostTime handed_on);
 
   /// Waits for something to write, not longer than chunk_span, and writes it. False when `stop` is requested,
   /// or finish() was called, and everything is written. A write error, or too little room left, is returned
@@ -70,6 +72,7 @@ class Recorder {
   };
   struct QueuedFrame {
     HostTime arrival;
+    HostTime handed_on;
     frame_socket::EncodedFrame frame;
   };
   using Item = std::variant<QueuedDatagram, QueuedFrame>;

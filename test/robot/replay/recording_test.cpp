@@ -73,7 +73,7 @@ void record(Recorder& recorder) {
       const auto imu = imu_datagram(index);
       recorder.on_datagram({livox::Channel::kImu, arrival_of(index), imu});
     }
-    if (index % 100 == 0) recorder.on_frame(camera_frame(index), arrival_of(index));
+    if (index % 100 == 0) recorder.on_frame(camera_frame(index), arrival_of(index), arrival_of(index));
   }
 }
 
@@ -131,6 +131,34 @@ TEST(Recording, WhatWasRecordedIsReplayed) {
   EXPECT_TRUE(source->report().complete) << source->report().why;
 }
 
+// A camera's lost packets came again 150 ms later: live the picture met the points of then, and a replay that
+// showed it earlier would find other groups.
+TEST(Recording, APictureThatCameLateIsReplayedAmongThePointsItCameAmong) {
+  const test::TempDir folder;
+  const auto path = folder.path() / "late.mcap";
+  auto recorder = Recorder::create(path, sensor::print_rig(small_rig()), "");
+  ASSERT_TRUE(recorder.has_value()) << recorder.error().context;
+  for (int index = 0; index < 300; ++index) {
+    const auto points = point_datagram(index);
+    (*recorder)->on_datagram({livox::Channel::kPoints, arrival_of(index), points});
+    if (index == 250) (*recorder)->on_frame(camera_frame(100), arrival_of(100), arrival_of(250));
+  }
+  ASSERT_TRUE((*recorder)->finish().has_value());
+  auto source = ReplaySource::open(path);
+  ASSERT_TRUE(source.has_value()) << source.error().context;
+  int packets_before = 0;
+  while (true) {
+    const auto next = source->next();
+    ASSERT_TRUE(next.has_value() && next->has_value()) << "the picture is missing";
+    if (std::holds_alternative<sensor::LidarPacket>(**next)) ++packets_before;
+    const auto* frame = std::get_if<sensor::CameraFrame>(&**next);
+    if (frame == nullptr) continue;
+    EXPECT_EQ(frame->arrival, arrival_of(100));
+    EXPECT_NEAR(packets_before, 250, 1);
+    return;
+  }
+}
+
 TEST(Recording, KeepsStampsAndPicturesExactly) {
   const test::TempDir folder;
   auto source = ReplaySource::open(write_recording(folder));
@@ -174,7 +202,7 @@ TEST(Recording, DamagedDatagramsAreCountedAndNotUsed) {
     if (index == 4) points.resize(20);
     (*recorder)->on_datagram({livox::Channel::kPoints, arrival_of(index), points});
   }
-  (*recorder)->on_frame(camera_frame(5, 20), arrival_of(10));  // not the rig's size
+  (*recorder)->on_frame(camera_frame(5, 20), arrival_of(10), arrival_of(10));  // not the rig's size
   ASSERT_TRUE((*recorder)->finish().has_value());
   auto source = ReplaySource::open(path);
   ASSERT_TRUE(source.has_value()) << source.error().context;
