@@ -217,7 +217,7 @@ void GigeServer::send_frame(const GigeExposure& exposure) {
 }
 
 void GigeServer::stream_frame(const GvspFrame& frame, GigePeer to, std::uint32_t packet_bytes) {
-  const double loss = faults().loss;
+  const GigeFaults now = faults();
   const std::uint32_t count = gvsp_packet_count(frame.payload.size(), packet_bytes);
   Pacer wire(1.0);
   (void)wire.wait_for(HostTime{}, {});  // begins now
@@ -226,7 +226,9 @@ void GigeServer::stream_frame(const GvspFrame& frame, GigePeer to, std::uint32_t
   for (std::uint32_t index = 0; index < count; ++index) {
     encode_gvsp_packet(frame, index, packet_bytes, GvspStatus::kFirst, packet);
     ++packets_sent_;
-    if (!wire_loses(loss)) send(stream_, packet, to);
+    if (!wire_loses(now.loss)) send(stream_, packet, to);
+    if (index == count / 4 && now.held_up_s > 0.0)
+      (void)wire.wait_for(HostTime{} + from_seconds(now.held_up_s), {});
     sent_bytes += packet.size();
     burst_bytes += packet.size();
     if (burst_bytes < kBurstBytes) continue;

@@ -34,6 +34,7 @@ struct GigeFaults {
   double loss = 0.0;       ///< share of packets lost, both ways
   bool silent = false;     ///< unplugged: nothing gets in or out
   bool half_open = false;  ///< answers commands, sends no frames
+  double held_up_s = 0.0;  ///< in the middle of each frame: a switch that is busy with others
 };
 
 struct GigeServerCounters {

@@ -17,7 +17,9 @@ namespace {
 constexpr int kDefaultPacketBytes = 1500;
 constexpr unsigned kPacketTimeout_us = 10'000;    // before a packet is asked for again
 constexpr unsigned kFrameRetention_us = 150'000;  // after its last packet an incomplete frame is given up
-constexpr double kResendRatio = 0.5;              // of a frame's packets at most are asked for again
+// Packets asked for again, over a frame's packets, at most; libaravis' own limit. After a pause of the sender
+// it asks for all that have not come yet, so a small limit would leave none for those that are really lost.
+constexpr double kResendRatio = 2.0;
 constexpr guint kFramesInSocket = 4;
 constexpr guint kLeastSocketBytes = 4U << 20U;  // the kernel counts some KB a packet, however small it is
 constexpr int kStreamNiceness = -10;

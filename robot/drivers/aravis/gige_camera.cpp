@@ -141,7 +141,7 @@ void GigeCamera::start() {
     close();
     return;
   }
-  last_frame_ = clock_.now();
+  silence_.heard(clock_.now());
   state_ = State::kStreaming;
 }
 
@@ -166,28 +166,30 @@ nanoseconds GigeCamera::patience() const {
 }
 
 std::optional<sensor::Measurement> GigeCamera::stream(const std::stop_token& stop, nanoseconds limit) {
-  const nanoseconds left = patience() - (clock_.now() - last_frame_);
-  const auto raw = left > nanoseconds(0) ? camera_->receive(stop, std::min(left, limit)) : std::nullopt;
+  const HostTime begin = clock_.now();
+  const nanoseconds wait = std::clamp(patience() - silence_.silence(begin), nanoseconds(0), limit);
+  const auto raw = camera_->receive(stop, wait);
   if (raw) {
     auto frame = source_.on_frame(*raw, disciplined());
     if (!raw->complete) {
-      last_frame_ = clock_.now();  // the camera sends; packets get lost
+      silence_.heard(clock_.now());  // the camera sends; packets get lost
       return std::nullopt;
     }
     read_clock();
     // With a disciplined clock nothing is fitted, and when it came is what a recording is to tell.
     if (frame && !disciplined()) place_arrival(std::get<sensor::CameraFrame>(*frame));
     if (outage_since_) note_recovery();
-    last_frame_ = clock_.now();
+    silence_.heard(clock_.now());
     had_frame_ = true;
     idle_opens_ = 0;
     return frame;
   }
   if (stop.stop_requested()) return std::nullopt;
+  silence_.listened(begin, clock_.now(), wait);
   if (camera_->control_lost()) {
     note_outage(session_.control_losses, "it no longer obeys: restarted, or another program took it");
     close();
-  } else if (clock_.now() - last_frame_ >= patience()) {
+  } else if (silence_.silence(clock_.now()) >= patience()) {
     look_after(stop);
   }
   return std::nullopt;
@@ -239,7 +241,7 @@ void GigeCamera::wait_for_return(const std::stop_token& stop, nanoseconds limit)
 void GigeCamera::note_outage(std::uint64_t& counter, const std::string& why) {
   if (outage_since_) return;  // still the same one
   ++counter;
-  outage_since_ = last_frame_;
+  outage_since_ = silence_.last_heard();
   EDGESPLAT_LOG_WARN("camera", "frames stopped", "why", why);
 }
 

@@ -10,6 +10,7 @@
 #include "robot/drivers/aravis/clock_watch.hpp"
 #include "robot/drivers/aravis/gige_source.hpp"
 #include "robot/drivers/aravis/gvcp_probe.hpp"
+#include "robot/drivers/aravis/silence_watch.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -86,7 +87,7 @@ class GigeCamera {
   std::unique_ptr<ClockWatch> watch_;
   HostTime retry_at_{};
   HostTime settle_until_{};
-  HostTime last_frame_{};   ///< or the start of the acquisition
+  SilenceWatch silence_;    ///< since the last frame, or the start of the acquisition
   bool had_frame_ = false;  ///< since it was opened
   int idle_opens_ = 0;      ///< openings in a row of which no frame came
   bool said_absent_ = false;
