@@ -65,7 +65,7 @@ def scale(bench, path, plot):
     everything = names(bench, "scale_")
     for number, name in enumerate(everything):
         print(f"\r{number + 1}/{len(everything)} {short(name):<40}", end="", file=sys.stderr, flush=True)
-        r = run(bench, name, 0.5)
+        r = run(bench, name, 1.0)
         what, gaussians, width, height = short(name).split("/")
         rows.append({"what": what.removeprefix("scale_"), "gaussians": int(gaussians), "width_px": int(width),
                      "height_px": int(height), "tile_pairs": int(r["tile_pairs"]), "wall_ms": round(r["real_time"], 3),
