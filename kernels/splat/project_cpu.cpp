@@ -62,13 +62,23 @@ HWY_INLINE void load_lanes(const GaussianSpans& g, std::size_t first, std::size_
 }
 
 /// The shared maths inlined to the last call: only then do its loops become vector operations.
-template <bool kFisheye>
+template <bool kFisheye, bool kThin>
 [[gnu::flatten]] void project_lanes(const ProjectTask& task, SplatLanes& lanes) {
-  const CameraT<float> camera = task.camera;  // a copy: else the compiler fears that the lanes overlap it
+  CameraT<float> camera = task.camera;  // a copy: else the compiler fears that the lanes overlap it
+  camera.fisheye = kFisheye;
   const float near_m = task.near_m, low_pass = task.low_pass_px2, width = task.width_px,
               height = task.height_px;
+  if constexpr (kThin) {
+    for (int i = 0; i < SplatLanes::kLanes; ++i) lanes.thin_one(camera, i);
+  }
   for (int i = 0; i < SplatLanes::kLanes; ++i)
-    lanes.project_one<kFisheye>(camera, near_m, low_pass, width, height, i);
+    lanes.project_one<kFisheye, kThin>(camera, near_m, low_pass, width, height, i);
+}
+
+HWY_INLINE auto choose_lanes(const ProjectTask& task) {
+  const bool thin = task.camera.least_axis_px > 0.0F;
+  if (task.camera.fisheye) return thin ? &project_lanes<true, true> : &project_lanes<true, false>;
+  return thin ? &project_lanes<false, true> : &project_lanes<false, false>;
 }
 
 /// 0.5 + SH towards the camera; `sh` is [terms,3].
@@ -120,11 +130,7 @@ void project_block(const ProjectTask& task, ProjectBlock& block) {
   for (std::size_t first = block.first; first < block.last; first += kLanes) {
     const std::size_t count = std::min(kLanes, block.last - first);
     load_lanes(task.gaussians, first, count, lanes);
-    if (task.camera.fisheye) {
-      project_lanes<true>(task, lanes);
-    } else {
-      project_lanes<false>(task, lanes);
-    }
+    choose_lanes(task)(task, lanes);
     for (std::size_t i = 0; i < count; ++i) {
       if (lanes.finite[i] == 0.0F) ++block.not_finite;
       if (lanes.visible[i] == 0.0F) continue;

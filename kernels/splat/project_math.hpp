@@ -19,6 +19,7 @@ struct CameraT {
   T translation[3];
   T antialias =
       0;  ///< 1: splats smaller than a pixel are made fainter instead of brighter; a factor, not a branch
+  T least_axis_px = 0;   ///< smaller Gaussians are thinned out (thin_math.hpp); 0: none
   bool fisheye = false;  ///< equidistant: the distance from (cx, cy) goes with the angle from the axis
 };
 

@@ -18,12 +18,24 @@ struct SplatLanes {
   using Lane = float[kLanes];
 
   Lane mean[3], log_scale[3], quat[4], opacity_logit;                    ///< in
+  Lane growth;                                                           ///< growth_of(), where thinned
   Lane u, v, conic[3], opacity, depth, half_width, half_height, reach2;  ///< out
   Lane finite;   ///< 1 where the parameters are, else 0
   Lane visible;  ///< 1 where the picture shows something of it, else 0
 
-  /// `width` and `height` of the picture.
-  template <bool kFisheye>
+  /// For project_one<., true>; in a loop of its own, which the compiler then makes vectors of.
+  EDGESPLAT_INLINE void thin_one(const CameraT<float>& camera, int i) {
+    constexpr float kLog2e = 1.44269504F;
+    const float m[3] = {mean[0][i], mean[1][i], mean[2][i]};
+    float scale[3];
+    EDGESPLAT_UNROLL
+    for (int k = 0; k < 3; ++k)
+      scale[k] = exp2_fast(std::min(std::max(kLog2e * log_scale[k][i], -100.0F), 100.0F));
+    growth[i] = growth_of(camera, m, scale, lot_of(m[0], m[1], m[2]));
+  }
+
+  /// `width` and `height` of the picture; kThin: where camera.least_axis_px > 0.
+  template <bool kFisheye, bool kThin>
   EDGESPLAT_INLINE void project_one(const CameraT<float>& camera, float near_m, float low_pass, float width,
                                     float height, int i) {
     constexpr float kLog2e = 1.44269504F;
@@ -42,6 +54,12 @@ struct SplatLanes {
     // NaN minus itself is not 0, nor is infinity minus itself.
     const bool all_finite = apart == 0.0F;
     const float of_one = 1.0F / (1.0F + exp2_fast(std::min(std::max(-kLog2e * logit, -100.0F), 100.0F)));
+    float grown = 1.0F;
+    if constexpr (kThin) {
+      grown = growth[i];
+      EDGESPLAT_UNROLL
+      for (int k = 0; k < 3; ++k) scale[k] *= grown;
+    }
     float cov3d[6];
     covariance3d_of_scale(q, scale, cov3d);
     Projection<float> p;
@@ -61,7 +79,7 @@ struct SplatLanes {
     const int inside = (p.u + wide > -0.5F ? 1 : 0) & (p.u - wide < width - 0.5F ? 1 : 0) &
                        (p.v + high > -0.5F ? 1 : 0) & (p.v - high < height - 0.5F ? 1 : 0);
     const int drawn = inside & (in_front ? 1 : 0) & (all_finite ? 1 : 0) & (conic_apart == 0.0F ? 1 : 0) &
-                      (faint >= kMinAlpha ? 1 : 0);
+                      (faint >= kMinAlpha ? 1 : 0) & (grown > 0.0F ? 1 : 0);
     u[i] = p.u;
     v[i] = p.v;
     EDGESPLAT_UNROLL

@@ -5,6 +5,7 @@
 #include "kernels/splat/fisheye_math.hpp"
 #include "kernels/splat/project.hpp"
 #include "kernels/splat/sh_math.hpp"
+#include "kernels/splat/thin_math.hpp"
 
 namespace edgesplat::splat {
 
@@ -26,6 +27,7 @@ inline CameraT<float> camera_of(const View& view, const RenderOptions& options) 
   CameraT<float> camera{};
   camera.fisheye = view.fisheye;
   camera.antialias = options.antialiased ? 1.0F : 0.0F;
+  camera.least_axis_px = options.least_axis_px;
   camera.fx = view.fx_px;
   camera.fy = view.fy_px;
   camera.cx = view.cx_px;
@@ -67,8 +69,15 @@ EDGESPLAT_HOST_DEVICE inline bool shape_of(const SplatInput& in, const CameraT<f
                                            float low_pass, float width_px, float height_px, Splat& out) {
   out.opacity = 1.0F / (1.0F + std::exp(-in.opacity_logit));
   if (out.opacity < kMinAlpha) return false;
+  float scale[3] = {std::exp(in.log_scale[0]), std::exp(in.log_scale[1]), std::exp(in.log_scale[2])};
+  if (camera.least_axis_px > 0.0F) {
+    const float grown = growth_of(camera, in.mean, scale, lot_of(in.mean[0], in.mean[1], in.mean[2]));
+    if (grown == 0.0F) return false;
+    EDGESPLAT_UNROLL
+    for (int k = 0; k < 3; ++k) scale[k] *= grown;
+  }
   float cov3d[6];
-  covariance3d(in.quat, in.log_scale, cov3d);
+  covariance3d_of_scale(in.quat, scale, cov3d);
   Projection<float> p;
   if (!project_any(camera, in.mean, cov3d, near_m, low_pass, p)) return false;
   out.opacity *= p.shrink;

@@ -33,6 +33,10 @@ struct RenderOptions {
   /// What the low-pass spreads it also makes fainter (Yu 2024, Mip-Splatting): maps look the same from
   /// further away. For maps that were trained so.
   bool antialiased = false;
+  /// Of Gaussians whose longest axis (1 sigma) is smaller than this on the screen only some are drawn, as
+  /// large as this, so that they cover what all would (thin_math.hpp); for pictures of maps from far away.
+  /// 0: all are drawn, >= 0. Not for training: the reverse does not know it.
+  float least_axis_px = 0.0F;
   std::array<float, 3> background{};
 };
 

@@ -17,6 +17,8 @@ Result<RenderedView> render_view(const gaussian::GaussianCloud& map, const io::P
   std::vector<float> colour(3 * pixels), depth(pixels), alpha(pixels);
   splat::RenderOptions options;
   options.background = settings.background;
+  options.antialiased = settings.antialiased;
+  options.least_axis_px = settings.least_axis_px;
   const HostTime begin = clock.now();
   EDGESPLAT_TRY(const auto stats, splat::render(core::Backend::kCpu, splat::spans_of(map), view, options,
                                                 {colour, depth, alpha}));

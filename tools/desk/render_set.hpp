@@ -23,6 +23,8 @@ struct RenderedView {
 struct RenderSettings {
   double scale = 1.0;                 ///< of the cameras' sizes
   std::array<float, 3> background{};  ///< 0..1
+  bool antialiased = false;           ///< splat::RenderOptions
+  float least_axis_px = 0.0F;         ///< splat::RenderOptions
 };
 [[nodiscard]] Result<RenderedView> render_view(const gaussian::GaussianCloud& map,
                                                const io::PosedCamera& camera, const RenderSettings& settings,

@@ -75,6 +75,11 @@ void add_render_verb(CLI::App& app, VerbContext& context) {
   verb->add_option("--background", options->settings.background,
                    "Red, green and blue of what no Gaussian covers")
       ->check(CLI::Range(0.0, 1.0));
+  verb->add_flag("--antialiased", options->settings.antialiased,
+                 "What is smaller than a pixel becomes fainter instead of brighter");
+  verb->add_option("--least-axis", options->settings.least_axis_px,
+                   "Pixels: of Gaussians that look smaller some are drawn as large as this, for all of them")
+      ->check(CLI::Range(0.0, 10.0));
   verb->add_flag("--json", options->json, "Print one JSON line on stdout");
   verb->callback([options, &context] { context.work = [options] { return run_render(*options); }; });
 }

@@ -133,6 +133,20 @@ TEST_P(RenderOn, FisheyesAndAntialiasedSplatsAgreeWithTheReference) {
   }
 }
 
+TEST_P(RenderOn, ThinnedCloudsAgreeWithTheReference) {
+  test::Random random(34);
+  const auto cloud =
+      test::random_cloud(random, {.count = 900, .sh_degree = 1, .scale_min_m = 0.01, .scale_max_m = 0.1});
+  RenderOptions options;
+  options.least_axis_px = 2.0F;
+  test::ReferenceOptions reference_options;
+  reference_options.least_axis_px = 2.0;
+  const auto model = camera(64, 48);
+  const Picture drawn = draw(cloud, model, {}, options);
+  expect_agrees(drawn, test::reference_render(cloud, model, {}, reference_options));
+  EXPECT_LT(drawn.stats.visible, draw(cloud, model, {}, {}).stats.visible * 3 / 4);
+}
+
 gaussian::GaussianCloud one(const Eigen::Vector3f& mean, float scale_m, float logit) {
   gaussian::GaussianCloud cloud;
   cloud.resize(1);

@@ -70,6 +70,7 @@ struct ReferenceCase {
   int width_px, height_px;
   double scale_max_m;
   bool fisheye = false, antialiased = false;
+  float least_axis_px = 0.0F;
 };
 class AgainstReference : public testing::TestWithParam<std::tuple<core::SimdLevel, ReferenceCase>> {
  protected:
@@ -97,6 +98,8 @@ TEST_P(AgainstReference, EveryPixelAgrees) {
   test::ReferenceOptions reference_options;
   reference_options.background = {0.2F, 0.4F, 0.9F};
   options.antialiased = reference_options.antialiased = c.antialiased;
+  options.least_axis_px = c.least_axis_px;
+  reference_options.least_axis_px = c.least_axis_px;
   auto model = camera(c.width_px, c.height_px);
   if (c.fisheye) {
     model.kind = geometry::CameraKind::kFisheye;
@@ -131,7 +134,9 @@ INSTANTIATE_TEST_SUITE_P(
                         ReferenceCase{7, 50, 0, 1, 1, 2.0},
                         ReferenceCase{8, 300, 1, 64, 64, 0.1, false, true},
                         ReferenceCase{9, 600, 2, 80, 60, 0.3, true},
-                        ReferenceCase{10, 600, 0, 65, 65, 0.1, true, true})),
+                        ReferenceCase{10, 600, 0, 65, 65, 0.1, true, true},
+                        ReferenceCase{11, 900, 1, 64, 48, 0.1, false, false, 2.0F},
+                        ReferenceCase{12, 900, 0, 65, 65, 0.1, true, true, 1.5F})),
     [](const auto& param) {
       return std::string(core::to_string(std::get<0>(param.param))) + "_" +
              std::to_string(std::get<1>(param.param).seed);
@@ -156,6 +161,42 @@ TEST(Render, GiantsAndNeedlesAgreeWithTheReference) {
       expect_agrees(drawn.alpha[i], expected.alpha[i], 1.0, sum);
     EXPECT_LT(sum / static_cast<double>(expected.alpha.size()), 2e-5) << core::to_string(level);
   }
+}
+
+/// A wall of small Gaussians seen from far away: few stand for all of them.
+TEST(Render, AThinnedWallLooksLikeTheWholeOne) {
+  constexpr int kAcross = 200;
+  gaussian::GaussianCloud wall;
+  wall.resize(kAcross * kAcross);
+  test::Random random(5);
+  for (std::size_t i = 0; i < wall.size(); ++i) {
+    const auto column = static_cast<float>(i % kAcross), row = static_cast<float>(i / kAcross);
+    const float jitter = static_cast<float>(random.uniform(-0.5, 0.5));
+    wall.means_m[3 * i] = 0.02F * (column + jitter - kAcross / 2.0F);
+    wall.means_m[3 * i + 1] = 0.02F * (row - kAcross / 2.0F);
+    wall.means_m[3 * i + 2] = 8.0F;
+    for (std::size_t k = 0; k < 3; ++k) {
+      wall.log_scales[3 * i + k] = std::log(0.012F);
+      wall.sh[3 * i + k] = std::sin(0.05F * column + static_cast<float>(k)) * std::cos(0.04F * row);
+    }
+    wall.quats_xyzw[4 * i + 3] = 1.0F;
+    wall.opacity_logits[i] = 1.0F;
+  }
+  RenderOptions whole, thinned;
+  whole.antialiased = thinned.antialiased = true;
+  thinned.least_axis_px = 0.5F;
+  const auto model = camera(96, 96);  // a Gaussian's axis takes 0.12 pixels
+  const Picture all = draw(wall, model, {}, whole), some = draw(wall, model, {}, thinned);
+  EXPECT_LT(some.stats.visible * 10, all.stats.visible);
+  double squares = 0.0, difference = 0.0, covered = 0.0;
+  for (std::size_t i = 0; i < all.colour.size(); ++i) {
+    squares += std::pow(some.colour[i] - all.colour[i], 2);
+    difference += some.colour[i] - all.colour[i];
+    covered += all.colour[i];
+  }
+  const auto count = static_cast<double>(all.colour.size());
+  EXPECT_GT(-10.0 * std::log10(squares / count), 30.0);
+  EXPECT_LT(std::abs(difference), 0.08 * covered);  // at random some places are covered twice
 }
 
 TEST(Render, AnEmptyCloudGivesTheBackground) {

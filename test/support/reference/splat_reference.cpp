@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 
@@ -69,6 +71,18 @@ Eigen::Matrix<double, 2, 3> jacobian_of(const geometry::CameraModel& camera, con
   return J;
 }
 
+/// The draw that decides who stands for others: a hash of the mean in single precision.
+double reference_lot(const Eigen::Vector3d& mean) {
+  const std::uint32_t multipliers[3] = {0x9E3779B1U, 0x85EBCA77U, 0xC2B2AE3DU};
+  const int shifts[3] = {15, 13, 16};
+  std::uint32_t hash = 0;
+  for (int k = 0; k < 3; ++k) {
+    hash = (hash + std::bit_cast<std::uint32_t>(static_cast<float>(mean[k]))) * multipliers[k];
+    hash ^= hash >> shifts[k];
+  }
+  return (hash >> 8U) / 16777216.0;
+}
+
 std::optional<ReferenceSplat> splat_of(const ReferenceCloud& cloud, std::size_t row,
                                        const geometry::CameraModel& camera,
                                        const geometry::RigidTransform& camera_from_map,
@@ -81,7 +95,13 @@ std::optional<ReferenceSplat> splat_of(const ReferenceCloud& cloud, std::size_t 
   if (fisheye && std::atan2(p.head<2>().norm(), p.z()) > 1.9) return std::nullopt;  // as the kernels have it
   const double* q = &cloud.quats_xyzw[4 * row];
   const Eigen::Matrix3d R = Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized().toRotationMatrix();
-  const Eigen::Vector3d scale = Eigen::Vector3d(&cloud.log_scales[3 * row]).array().exp();
+  Eigen::Vector3d scale = Eigen::Vector3d(&cloud.log_scales[3 * row]).array().exp();
+  if (options.least_axis_px > 0.0) {
+    const double axis_px = std::max(camera.fx_px, camera.fy_px) * scale.maxCoeff() / depth_m;
+    const double size = std::min(1.0, axis_px / options.least_axis_px);
+    if (reference_lot(mean) >= size * size) return std::nullopt;
+    scale /= size;
+  }
   const Eigen::Matrix3d sigma = R * scale.cwiseAbs2().asDiagonal() * R.transpose();
   const Eigen::Matrix<double, 2, 3> J = jacobian_of(camera, p);
   const Eigen::Matrix3d W = camera_from_map.rotation.toRotationMatrix();

@@ -17,6 +17,7 @@ struct ReferenceOptions {
   double near_m = 0.05;
   double low_pass_px2 = 0.3;
   bool antialiased = false;
+  double least_axis_px = 0.0;
   Eigen::Vector3d background = Eigen::Vector3d::Zero();
 };
 
