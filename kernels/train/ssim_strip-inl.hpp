@@ -71,13 +71,13 @@ HWY_INLINE Similarity similarity(V x, V y, V squares, V product) {
   const V d2 = hn::Add(hn::Sub(squares, both), c2);
   const V inverse = core::HWY_NAMESPACE::reciprocal(d, hn::Mul(d1, d2));
   const V n1_inverse = hn::Mul(n1, inverse);
-  Similarity s;
-  s.value = hn::Mul(n1_inverse, n2);
-  s.by_product = hn::Add(n1_inverse, n1_inverse);
-  s.by_squares = hn::Neg(hn::Mul(hn::Mul(s.value, d1), inverse));
-  const V slope = hn::Sub(hn::Mul(y, hn::Sub(n2, n1)), hn::Mul(hn::Mul(x, s.value), hn::Sub(d2, d1)));
-  s.by_sum = hn::Mul(hn::Mul(two, slope), inverse);
-  return s;
+  const V value = hn::Mul(n1_inverse, n2);
+  const V by_product = hn::Add(n1_inverse, n1_inverse);
+  const V by_squares = hn::Neg(hn::Mul(hn::Mul(value, d1), inverse));
+  const V slope = hn::Sub(hn::Mul(y, hn::Sub(n2, n1)), hn::Mul(hn::Mul(x, value), hn::Sub(d2, d1)));
+  // As a whole: g++ makes a constructor without arguments outside of the vectors' target, which on aarch64 is
+  // an error.
+  return {value, hn::Mul(hn::Mul(two, slope), inverse), by_squares, by_product};
 }
 
 }  // namespace edgesplat::train::HWY_NAMESPACE
