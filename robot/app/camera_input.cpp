@@ -99,6 +99,7 @@ class GigeCameraInput final : public CameraInput {
     metrics.counter("camera.silences").add(s.silences);
     metrics.counter("camera.control_losses").add(s.control_losses);
     metrics.counter("camera.recoveries").add(s.recoveries);
+    metrics.counter("camera.moves").add(s.moves);
     metrics.gauge("camera.longest_outage_s").set(to_seconds(s.longest_outage));
     const aravis::StreamStatistics t = camera_->statistics();
     metrics.counter("camera.underruns").add(t.underruns);

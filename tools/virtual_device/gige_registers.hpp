@@ -19,7 +19,7 @@ namespace edgesplat::virtual_device {
 struct GigeCameraModel {
   std::uint32_t width_px = 320;
   std::uint32_t height_px = 256;
-  std::string serial = "ES-0001";  ///< at most 15 characters
+  std::string serial;  ///< at most 15 characters
   GigeVocabulary vocabulary = GigeVocabulary::kSfnc;
   std::uint32_t address_ipv4 = 0x7F00'0001;  ///< what the bootstrap registers say, host order
 };

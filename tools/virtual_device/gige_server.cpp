@@ -13,7 +13,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <utility>
 
@@ -26,26 +26,6 @@ constexpr std::size_t kBurstBytes = std::size_t{32} << 10U;  // sent at once bef
 constexpr auto kLinger = std::chrono::milliseconds(300);
 constexpr std::uint32_t kMostResent = 4096;  // packets for one request
 
-sockaddr_in address_of(GigePeer peer) {
-  sockaddr_in out{};
-  out.sin_family = AF_INET;
-  out.sin_addr.s_addr = htonl(peer.address);
-  out.sin_port = htons(peer.port);
-  return out;
-}
-
-Result<UniqueFd> bound_socket(std::uint32_t address, std::uint16_t port, const std::string& text) {
-  UniqueFd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  if (!socket.valid())
-    return fail(Errc::kIo, std::string("cannot open a UDP socket: ") + std::strerror(errno));
-  const sockaddr_in at = address_of({address, port});
-  if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&at), sizeof(at)) != 0) {
-    return fail(Errc::kIo, "the virtual camera cannot have UDP " + text + ":" + std::to_string(port) + ": " +
-                               std::strerror(errno) + "; is another one running? Give it another address");
-  }
-  return socket;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<GigeServer>> GigeServer::open(const GigeServerOptions& options, const Clock& clock) {
@@ -57,16 +37,18 @@ Result<std::unique_ptr<GigeServer>> GigeServer::open(const GigeServerOptions& op
   GigeServerOptions checked = options;
   checked.model.address_ipv4 = ntohl(address.s_addr);
   checked.path_bytes = std::clamp(options.path_bytes, kMinPacketBytes, kMaxPacketBytes);
-  EDGESPLAT_TRY(UniqueFd control, bound_socket(checked.model.address_ipv4, kGvcpPort, options.address));
-  EDGESPLAT_TRY(UniqueFd stream, bound_socket(checked.model.address_ipv4, 0, options.address));
-  return std::unique_ptr<GigeServer>(new GigeServer(checked, std::move(control), std::move(stream), clock));
+  if (checked.model.serial.empty()) {
+    std::array<char, 16> serial{};
+    std::snprintf(serial.data(), serial.size(), "ES-%08X", checked.model.address_ipv4);
+    checked.model.serial = serial.data();
+  }
+  EDGESPLAT_TRY(GigeSockets sockets, GigeSockets::open(checked.model.address_ipv4, options.address));
+  return std::unique_ptr<GigeServer>(new GigeServer(checked, std::move(sockets), clock));
 }
 
-GigeServer::GigeServer(const GigeServerOptions& options, UniqueFd control, UniqueFd stream,
-                       const Clock& clock)
+GigeServer::GigeServer(const GigeServerOptions& options, GigeSockets sockets, const Clock& clock)
     : options_(options),
-      control_(std::move(control)),
-      stream_(std::move(stream)),
+      sockets_(std::move(sockets)),
       clock_(clock),
       device_(options.model),
       queue_({.items = kWaitingExposures}, thread::Overflow::kDropOldest) {
@@ -99,24 +81,27 @@ void GigeServer::linger() {
 
 bool GigeServer::control_step(const std::stop_token& stop) {
   const thread::StopFd stop_fd(stop);
-  std::array<std::byte, 2048> datagram{};
   while (!stop.stop_requested()) {
-    std::array<pollfd, 2> fds{pollfd{stop_fd.get(), POLLIN, 0}, pollfd{control_.get(), POLLIN, 0}};
+    std::array<pollfd, 3> fds{pollfd{stop_fd.get(), POLLIN, 0}, pollfd{sockets_.control.get(), POLLIN, 0},
+                              pollfd{sockets_.broadcasts.get(), POLLIN, 0}};
     (void)::poll(fds.data(), fds.size(), kHeartbeatCheck_ms);
-    if (fds[1].revents != 0) {
-      sockaddr_in from{};
-      socklen_t length = sizeof(from);
-      const ssize_t bytes = ::recvfrom(control_.get(), datagram.data(), datagram.size(), MSG_DONTWAIT,
-                                       reinterpret_cast<sockaddr*>(&from), &length);
-      if (bytes > 0) {
-        on_command(std::span(datagram).first(static_cast<std::size_t>(bytes)),
-                   {ntohl(from.sin_addr.s_addr), ntohs(from.sin_port)});
-      }
-    }
+    if (fds[1].revents != 0) take_command(sockets_.control);
+    if (fds[2].revents != 0) take_command(sockets_.broadcasts);
     const std::lock_guard lock(mutex_);
     device_.tick(clock_.now());
   }
   return false;
+}
+
+void GigeServer::take_command(const UniqueFd& socket) {
+  std::array<std::byte, 2048> datagram{};
+  sockaddr_in from{};
+  socklen_t length = sizeof(from);
+  const ssize_t bytes = ::recvfrom(socket.get(), datagram.data(), datagram.size(), MSG_DONTWAIT,
+                                   reinterpret_cast<sockaddr*>(&from), &length);
+  if (bytes <= 0) return;
+  on_command(std::span(datagram).first(static_cast<std::size_t>(bytes)),
+             {ntohl(from.sin_addr.s_addr), ntohs(from.sin_port)});
 }
 
 void GigeServer::on_command(std::span<const std::byte> datagram, GigePeer from) {
@@ -128,7 +113,7 @@ void GigeServer::on_command(std::span<const std::byte> datagram, GigePeer from) 
     answer = device_.on_datagram(datagram, from, clock_.now());
   }
   acquiring_changed_.notify_all();
-  if (!answer.empty() && !wire_loses(now.loss)) send(control_, answer, from);
+  if (!answer.empty() && !wire_loses(now.loss)) send(sockets_.control, answer, from);
   serve_effects();
 }
 
@@ -158,7 +143,7 @@ void GigeServer::send_test_packet(std::uint32_t bytes) {
     const std::lock_guard lock(mutex_);
     to = device_.stream_to();
   }
-  if (to) send(stream_, std::vector<std::byte>(bytes - kIpUdpHeaderBytes), *to);
+  if (to) send(sockets_.stream, std::vector<std::byte>(bytes - kIpUdpHeaderBytes), *to);
 }
 
 void GigeServer::resend(const GvcpPacketResend& wanted) {
@@ -179,12 +164,12 @@ void GigeServer::resend(const GvcpPacketResend& wanted) {
     const std::uint32_t index = wanted.first_packet + i;
     if (index >= count) {
       ++packets_unavailable_;
-      send(stream_, gvsp_unavailable(static_cast<std::uint16_t>(wanted.frame), index), *to);
+      send(sockets_.stream, gvsp_unavailable(static_cast<std::uint16_t>(wanted.frame), index), *to);
       return;
     }
     encode_gvsp_packet(*frame, index, packet_bytes, GvspStatus::kResent, packet);
     ++packets_resent_;
-    if (!wire_loses(now.loss)) send(stream_, packet, *to);
+    if (!wire_loses(now.loss)) send(sockets_.stream, packet, *to);
   }
 }
 
@@ -226,7 +211,7 @@ void GigeServer::stream_frame(const GvspFrame& frame, GigePeer to, std::uint32_t
   for (std::uint32_t index = 0; index < count; ++index) {
     encode_gvsp_packet(frame, index, packet_bytes, GvspStatus::kFirst, packet);
     ++packets_sent_;
-    if (!wire_loses(now.loss)) send(stream_, packet, to);
+    if (!wire_loses(now.loss)) send(sockets_.stream, packet, to);
     if (index == count / 4 && now.held_up_s > 0.0)
       (void)wire.wait_for(HostTime{} + from_seconds(now.held_up_s), {});
     sent_bytes += packet.size();
@@ -252,7 +237,7 @@ bool GigeServer::wire_loses(double share) {
 }
 
 bool GigeServer::send(const UniqueFd& socket, std::span<const std::byte> packet, GigePeer to) {
-  const sockaddr_in address = address_of(to);
+  const sockaddr_in address = to_sockaddr(to);
   const ssize_t sent = ::sendto(socket.get(), packet.data(), packet.size(), MSG_NOSIGNAL,
                                 reinterpret_cast<const sockaddr*>(&address), sizeof(address));
   if (sent >= 0) return true;

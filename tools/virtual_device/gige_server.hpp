@@ -8,6 +8,7 @@
 #include "common/thread/worker.hpp"
 #include "common/time/clock.hpp"
 #include "tools/virtual_device/gige_device.hpp"
+#include "tools/virtual_device/gige_sockets.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -23,10 +24,10 @@ namespace edgesplat::virtual_device {
 
 struct GigeServerOptions {
   std::string address = "127.0.0.1";  ///< IPv4 of this machine; the camera answers on its UDP port 3956
-  GigeCameraModel model;              ///< its address_ipv4 is set from `address`
-  std::uint32_t path_bytes = 9000;    ///< larger packets do not get through, [256, 9000]
-  double link_bytes_per_s = 117e6;    ///< frames are paced to this: Gigabit Ethernet
-  std::uint64_t seed = 1;             ///< of the losses on demand
+  GigeCameraModel model;  ///< its address_ipv4 is set from `address`, and its serial number where it has none
+  std::uint32_t path_bytes = 9000;  ///< larger packets do not get through, [256, 9000]
+  double link_bytes_per_s = 117e6;  ///< frames are paced to this: Gigabit Ethernet
+  std::uint64_t seed = 1;           ///< of the losses on demand
 };
 
 /// What is wrong with the camera at present.
@@ -77,9 +78,10 @@ class GigeServer {
   [[nodiscard]] GigeServerCounters counters() const;
 
  private:
-  GigeServer(const GigeServerOptions& options, UniqueFd control, UniqueFd stream, const Clock& clock);
+  GigeServer(const GigeServerOptions& options, GigeSockets sockets, const Clock& clock);
   void linger();
   bool control_step(const std::stop_token& stop);
+  void take_command(const UniqueFd& socket);
   void on_command(std::span<const std::byte> datagram, GigePeer from);
   void serve_effects();
   void send_test_packet(std::uint32_t bytes);
@@ -91,8 +93,7 @@ class GigeServer {
   bool send(const UniqueFd& socket, std::span<const std::byte> packet, GigePeer to);
 
   GigeServerOptions options_;
-  UniqueFd control_;
-  UniqueFd stream_;
+  GigeSockets sockets_;
   const Clock& clock_;
   mutable std::mutex mutex_;  ///< of device_, faults_ and acquiring_
   std::condition_variable_any acquiring_changed_;

@@ -56,7 +56,7 @@ class AravisCamera {
   [[nodiscard]] Result<ClockReading> read_clock();
   [[nodiscard]] StreamStatistics statistics() const;
   [[nodiscard]] int packet_bytes() const;
-  /// "edgesplat VirtualCamera ES-0001 at 127.0.0.1".
+  /// "edgesplat VirtualCamera ES-7F000001 at 127.0.0.1".
   [[nodiscard]] const std::string& name() const;
   /// IPv4, to see whether it is still there.
   [[nodiscard]] const std::string& address() const;

@@ -8,6 +8,7 @@ using config::Range;
 
 void describe(config::ConfigReader& reader, GigeCameraConfig& c) {
   reader.field("address", c.address, "IPv4 address of the camera, or the name by which discovery finds it");
+  reader.field("serial", c.serial_number, "the camera to use, wherever it is; empty: the one at address");
   reader.choice("trigger", c.trigger, {{"line", Trigger::kLine}, {"free", Trigger::kFree}},
                 "line = a pulse on trigger_source exposes, free = the camera's own rate");
   reader.field("trigger_source", c.trigger_source, "the camera's name of the trigger line");

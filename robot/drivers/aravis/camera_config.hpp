@@ -21,6 +21,7 @@ enum class StampReference : std::uint8_t { kStart, kMiddle, kEnd };
 /// How a GigE Vision camera is to be used.
 struct GigeCameraConfig {
   std::string address = "192.168.1.20";  ///< IPv4 address, or the name by which discovery finds it
+  std::string serial_number;             ///< the camera to use, wherever it is; empty: the one at `address`
   Trigger trigger = Trigger::kLine;
   std::string trigger_source = "Line0";
   double input_latency_us =

@@ -14,8 +14,7 @@ namespace edgesplat::aravis {
 namespace {
 
 constexpr auto kRetry = std::chrono::milliseconds(300);
-constexpr auto kProbeTimeout = std::chrono::milliseconds(100);
-constexpr auto kProbePeriod = std::chrono::milliseconds(200);
+constexpr auto kSearchPause = std::chrono::milliseconds(100);
 constexpr auto kMostLatency = std::chrono::milliseconds(500);  // exposure, readout and transfer
 constexpr auto kMoreRoundTrip = std::chrono::microseconds(100);
 constexpr auto kFirstQuestion = std::chrono::milliseconds(500);
@@ -45,18 +44,10 @@ Result<std::unique_ptr<GigeCamera>> GigeCamera::create(const GigeCameraConfig& c
 }
 
 GigeCamera::GigeCamera(const GigeCameraConfig& config, PictureSize expected, const Clock& clock)
-    : config_(config), clock_(clock), source_(config, expected) {}
+    : config_(config), clock_(clock), source_(config, expected), locator_(config) {}
 
 GigeCamera::~GigeCamera() {
-  if (!camera_) return;
-  if (!probe_->answers({}, kProbeTimeout)) {
-    // libaravis would wait for its answers for seconds, and the program's end must not. Its threads go with
-    // the process; nothing that they use is freed.
-    watch_.reset();
-    (void)camera_.release();
-    return;
-  }
-  close();
+  if (camera_) close(locator_.answers({}));
 }
 
 std::optional<sensor::Measurement> GigeCamera::receive(const std::stop_token& stop, nanoseconds timeout) {
@@ -67,7 +58,7 @@ std::optional<sensor::Measurement> GigeCamera::receive(const std::stop_token& st
     switch (state_) {
       case State::kClosed:
         if (clock_.now() >= retry_at_) {
-          try_open();
+          try_open(stop);
         } else {
           pause(stop, std::min(left, retry_at_ - clock_.now()));
         }
@@ -86,19 +77,38 @@ std::optional<sensor::Measurement> GigeCamera::receive(const std::stop_token& st
   return std::nullopt;
 }
 
-void GigeCamera::try_open() {
+Whereabouts GigeCamera::locate(const std::stop_token& stop) {
+  const std::string before = locator_.address();
+  const Whereabouts where = locator_.locate(stop);
+  if (where == Whereabouts::kElsewhere) {
+    ++session_.moves;
+    EDGESPLAT_LOG_WARN("camera", "has another address", "serial", locator_.serial_number(), "from", before,
+                       "to", locator_.address());
+  }
+  return where;
+}
+
+void GigeCamera::note_failed_open(const std::string& why) {
+  ++session_.failed_opens;
+  if (!said_absent_ && !outage_since_) EDGESPLAT_LOG_WARN("camera", "not there yet", "why", why);
+  said_absent_ = true;
+  retry_at_ = clock_.now() + kRetry;
+}
+
+void GigeCamera::try_open(const std::stop_token& stop) {
+  if (locate(stop) == Whereabouts::kAway) {
+    if (!stop.stop_requested()) note_failed_open("no camera " + locator_.sought() + " answers");
+    return;
+  }
+  config_.address = locator_.address();
   auto opened = AravisCamera::open(config_, clock_);
   if (!opened) {
-    ++session_.failed_opens;
-    if (!said_absent_ && !outage_since_)
-      EDGESPLAT_LOG_WARN("camera", "not there yet", "why", opened.error().context);
-    said_absent_ = true;
-    retry_at_ = clock_.now() + kRetry;
+    note_failed_open(opened.error().context);
     return;
   }
   ++session_.opens;
   camera_ = *std::move(opened);
-  probe_ = std::make_unique<GvcpProbe>(camera_->address());
+  locator_.meet(camera_->address(), stop);
   watch_ = std::make_unique<ClockWatch>(*camera_, config_, clock_);
   source_.restart();
   had_frame_ = false;
@@ -138,19 +148,19 @@ void GigeCamera::start() {
   watch_->wait_for_question(kFirstQuestion);
   if (const Status started = camera_->start(); !started) {
     ++session_.failed_opens;
-    close();
+    close(locator_.answers({}));
     return;
   }
   silence_.heard(clock_.now());
   state_ = State::kStreaming;
 }
 
-void GigeCamera::close() {
-  watch_.reset();
+void GigeCamera::close(bool answers) {
   host_from_camera_.reset();
   if (camera_) earlier_ = sum(earlier_, camera_->statistics());
+  if (!answers) farewell_.close(std::move(camera_), std::move(watch_));
+  watch_.reset();
   camera_.reset();
-  probe_.reset();
   state_ = State::kClosed;
   retry_at_ = clock_.now();
 }
@@ -188,7 +198,7 @@ std::optional<sensor::Measurement> GigeCamera::stream(const std::stop_token& sto
   silence_.listened(begin, clock_.now(), wait);
   if (camera_->control_lost()) {
     note_outage(session_.control_losses, "it no longer obeys: restarted, or another program took it");
-    close();
+    close(locator_.answers(stop));
   } else if (silence_.silence(clock_.now()) >= patience()) {
     look_after(stop);
   }
@@ -219,22 +229,23 @@ void GigeCamera::place_arrival(sensor::CameraFrame& frame) {
 
 /// No frames come: is the camera there at all?
 void GigeCamera::look_after(const std::stop_token& stop) {
-  const bool there = probe_->answers(stop, kProbeTimeout);
+  const bool there = locator_.answers(stop);
   note_outage(session_.silences, there ? "it answers, but no frames come: trigger or network"
                                        : "it does not answer: power or cable");
   if (!had_frame_) ++idle_opens_;
   if (there) {
-    close();
+    close(true);
   } else {
     state_ = State::kGone;
   }
 }
 
 void GigeCamera::wait_for_return(const std::stop_token& stop, nanoseconds limit) {
-  if (probe_->answers(stop, std::min<nanoseconds>(kProbeTimeout, limit))) {
-    close();
+  const Whereabouts where = locate(stop);
+  if (where == Whereabouts::kAway) {
+    pause(stop, std::min<nanoseconds>(kSearchPause, limit));
   } else {
-    pause(stop, std::min<nanoseconds>(kProbePeriod, limit));
+    close(where != Whereabouts::kElsewhere);
   }
 }
 

@@ -7,9 +7,10 @@
 #include "common/time/clock.hpp"
 #include "common/time/clock_map.hpp"
 #include "robot/drivers/aravis/aravis_camera.hpp"
+#include "robot/drivers/aravis/camera_farewell.hpp"
+#include "robot/drivers/aravis/camera_locator.hpp"
 #include "robot/drivers/aravis/clock_watch.hpp"
 #include "robot/drivers/aravis/gige_source.hpp"
-#include "robot/drivers/aravis/gvcp_probe.hpp"
 #include "robot/drivers/aravis/silence_watch.hpp"
 
 #include <cstdint>
@@ -26,12 +27,14 @@ struct SessionCounters {
   std::uint64_t silences = 0;      ///< frames stopped coming
   std::uint64_t control_losses = 0;
   std::uint64_t recoveries = 0;  ///< frames came again after one of these
+  std::uint64_t moves = 0;       ///< it was found at another address
   nanoseconds longest_outage{};  ///< from the last frame before to the first after
 };
 
 /// A GigE Vision camera that comes back by itself. A camera that is not there is no error but a state. Frames
 /// that stop (unplugged, half open, restarted, trigger line broken) are noticed after `silence_s`; it is
-/// opened anew as soon as it answers. Each such event is one line in the log and one in the counters.
+/// opened anew as soon as it answers, at whatever address: its serial number tells it. Each such event is one
+/// line in the log and one in the counters.
 /// Where its clock is free but can be read, a frame's arrival is the moment of its stamp by that: no
 /// exposure, readout and transfer is in it. Thread-bound; Aravis' threads and one that asks for the clock are
 /// inside.
@@ -64,8 +67,10 @@ class GigeCamera {
     kGone,  ///< open, but does not answer
   };
   GigeCamera(const GigeCameraConfig& config, PictureSize expected, const Clock& clock);
-  void try_open();
-  void close();
+  void try_open(const std::stop_token& stop);
+  [[nodiscard]] Whereabouts locate(const std::stop_token& stop);
+  void note_failed_open(const std::string& why);
+  void close(bool answers);
   void settle(const std::stop_token& stop, nanoseconds limit);
   [[nodiscard]] std::optional<sensor::Measurement> stream(const std::stop_token& stop, nanoseconds limit);
   void look_after(const std::stop_token& stop);
@@ -83,7 +88,7 @@ class GigeCamera {
   GigeSource source_;
   State state_ = State::kClosed;
   std::unique_ptr<AravisCamera> camera_;
-  std::unique_ptr<GvcpProbe> probe_;
+  CameraLocator locator_;
   std::unique_ptr<ClockWatch> watch_;
   HostTime retry_at_{};
   HostTime settle_until_{};
@@ -96,6 +101,7 @@ class GigeCamera {
   nanoseconds best_round_trip_{};             ///< of those
   SessionCounters session_;
   StreamStatistics earlier_;  ///< of cameras that were closed
+  CameraFarewell farewell_;
 };
 
 }  // namespace edgesplat::aravis

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/drivers/livox/livox_transport.hpp"
 
+#include "common/base/local_address.hpp"
 #include "common/thread/stop_fd.hpp"
-#include "robot/drivers/livox/local_address.hpp"
 #include "robot/drivers/livox/udp_channel.hpp"
 
 #include <arpa/inet.h>

@@ -51,7 +51,7 @@ class GigeFault : public testing::Test {
     return done();
   }
   /// Faults begin; then, for a while after they were noticed, they last; then they end.
-  void suffer(const std::function<void()>& begin, const std::function<void()>& end) {
+  void suffer(const std::function<void()>& begin, const std::function<void()>& end, int moves = 0) {
     testing::internal::CaptureStderr();
     begin();
     EXPECT_TRUE(run_until([&] { return !robot_->streaming(); }, kSlower * 1s)) << "not noticed";
@@ -66,10 +66,12 @@ class GigeFault : public testing::Test {
     EXPECT_TRUE(robot_->streaming());
     EXPECT_EQ(lines_with("frames stopped"), 1) << log_;
     EXPECT_EQ(lines_with("frames come again"), 1) << log_;
-    EXPECT_EQ(lines_with(" camera: "), 2) << log_;
+    EXPECT_EQ(lines_with("has another address"), moves) << log_;
+    EXPECT_EQ(lines_with(" camera: "), 2 + moves) << log_;
     const auto& session = robot_->session_counters();
     EXPECT_EQ(session.silences + session.control_losses, 1U);
     EXPECT_EQ(session.recoveries, 1U);
+    EXPECT_EQ(session.moves, static_cast<std::uint64_t>(moves));
     EXPECT_LT(robot_->counters().incomplete, 10U) << "no more than were on their way when it began";
   }
   [[nodiscard]] int lines_with(const std::string& what) const {
@@ -113,6 +115,35 @@ TEST_F(GigeFault, RestartedWithItsClockReset) {
   ASSERT_TRUE(newest_.has_value());
   EXPECT_LT(to_ns(newest_->stamp), 100'000'000'000);  // its new clock
   EXPECT_EQ(robot_->counters().restarts, 1U);
+}
+
+TEST_F(GigeFault, BackAtANewAddress) {
+  suffer([&] { camera_.reset(); },
+         [&] {
+           options_.address = test::own_loopback_address();
+           camera_.emplace(options_, 10.0);
+           camera_->start_pulses();
+         },
+         1);
+}
+
+TEST_F(GigeFault, BackAtANewAddressWhileAnotherCameraHasItsOldOne) {
+  std::optional<PulsedCamera> other;
+  suffer(
+      [&] {
+        camera_.reset();
+        auto elsewhere = options_;
+        elsewhere.model.serial = "F-2";
+        other.emplace(elsewhere, 10.0);
+        other->start_pulses();
+      },
+      [&] {
+        options_.address = test::own_loopback_address();
+        camera_.emplace(options_, 10.0);
+        camera_->start_pulses();
+      },
+      1);
+  EXPECT_EQ(other->server().counters().frames_sent, 0U);
 }
 
 TEST_F(GigeFault, TriggerLineBroken) {

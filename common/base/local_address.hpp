@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace edgesplat::livox {
+namespace edgesplat {
 
 /// This machine's addresses on networks that take broadcasts (not loopback). For each a broadcast has to be
 /// sent: the kernel sends one to 255.255.255.255 on one network only.
@@ -15,4 +15,4 @@ namespace edgesplat::livox {
 /// The address that this machine sends from to `destination`; nothing where no way leads there.
 [[nodiscard]] std::optional<in_addr> source_towards(in_addr destination);
 
-}  // namespace edgesplat::livox
+}  // namespace edgesplat

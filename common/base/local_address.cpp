@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
-#include "robot/drivers/livox/local_address.hpp"
+#include "common/base/local_address.hpp"
 
 #include "common/base/unique_fd.hpp"
 
@@ -10,7 +10,7 @@
 
 #include <memory>
 
-namespace edgesplat::livox {
+namespace edgesplat {
 
 std::vector<in_addr> broadcast_sources() {
   ifaddrs* all = nullptr;
@@ -39,4 +39,4 @@ std::optional<in_addr> source_towards(in_addr destination) {
   return from.sin_addr;
 }
 
-}  // namespace edgesplat::livox
+}  // namespace edgesplat

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
-#include "robot/drivers/livox/local_address.hpp"
+#include "common/base/local_address.hpp"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 
-namespace edgesplat::livox {
+namespace edgesplat {
 namespace {
 
 in_addr address(const char* text) {
@@ -25,4 +25,4 @@ TEST(LocalAddress, BroadcastsGoToEveryNetworkButLoopback) {
 }
 
 }  // namespace
-}  // namespace edgesplat::livox
+}  // namespace edgesplat
