@@ -9,6 +9,7 @@
 #include "robot/app/live_map.hpp"
 #include "robot/app/picture_log.hpp"
 #include "robot/app/pipeline.hpp"
+#include "robot/app/pose_log.hpp"
 #include "robot/app/progress.hpp"
 #include "robot/app/ptp_watch.hpp"
 #include "robot/app/recording.hpp"
@@ -190,8 +191,15 @@ Status run_robot(const Options& o, const std::stop_token& stop) {
   metrics::Registry metrics;
   EDGESPLAT_TRY(const auto map,
                 LiveMap::create(config, o.lockstep, clock, folder ? folder->robot_folder() : "", metrics));
+  PoseLog poses(folder ? folder->robot_folder() / "imu_rate.tum" : std::filesystem::path());
   const auto sink = [&](std::shared_ptr<const map::Keyframe> keyframe) { map->submit(std::move(keyframe)); };
   EDGESPLAT_TRY(const auto chain, SensingChain::create(config, rig, sink, clock, metrics));
+  // In a replay arrivals are the recording's, on another clock.
+  metrics::Histogram* const latency_ms = recording ? nullptr : &metrics.histogram("pose_stream.latency_ms");
+  chain->stream_poses_to([&](const tracking::StreamedPose& pose, HostTime arrival) {
+    if (latency_ms != nullptr) latency_ms->record(to_seconds(clock.now() - arrival) * 1e3);
+    poses.add(pose);
+  });
   Status run = o.lockstep ? run_lockstep(o, *recording, *chain, stop)
                           : run_threads(o, config, rig, recording, *chain, *map, clock, metrics, stop);
   if (recording) report_recording(*recording, metrics);

@@ -57,12 +57,23 @@ SensingChain::SensingChain(const robot_config::RobotConfig& config, const sensor
       tracker_(std::move(tracker)),
       keyframe_stage_(config, rig, std::move(sink), work_clock, metrics),
       track_ms_(metrics.histogram("tracking.group_ms")),
-      refused_groups_(metrics.counter("tracking.refused_groups")) {}
+      refused_groups_(metrics.counter("tracking.refused_groups")),
+      streamed_poses_(metrics.counter("pose_stream.poses")) {
+  group_builder_.on_imu([this](const sync::GroupImu& sample) { stream_pose(sample); });
+}
 
 std::vector<ReadyGroup> SensingChain::sync(sensor::Measurement measurement) {
+  if (const auto* sample = std::get_if<sensor::ImuSample>(&measurement)) sample_arrival_ = sample->arrival;
   auto groups = group_builder_.push(std::move(measurement));
   if (!groups.empty()) watch_clocks();
   return stamp_groups(std::move(groups), work_clock_.now());
+}
+
+void SensingChain::stream_pose(const sync::GroupImu& sample) {
+  const auto pose = pose_stream_.on_sample(sample);
+  if (!pose) return;
+  streamed_poses_.add();
+  if (pose_sink_) pose_sink_(*pose, sample_arrival_);
 }
 
 /// One line for each clock that turned out wrong.
@@ -89,6 +100,7 @@ std::optional<TrackedFrame> SensingChain::track(ReadyGroup ready) {
     EDGESPLAT_LOG_WARN("tracking", "group refused", "why", tracked.error().context);
     return std::nullopt;
   }
+  pose_stream_.correct(*tracked);
   TrackedFrame frame;
   frame.group = std::move(*tracked);
   frame.image = std::move(ready.group.image);

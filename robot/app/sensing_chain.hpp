@@ -5,10 +5,13 @@
 #include "robot/app/keyframe_stage.hpp"
 #include "robot/config/robot_config.hpp"
 #include "robot/sync/group_builder.hpp"
+#include "robot/tracking/pose_stream.hpp"
 #include "robot/tracking/tracker.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace edgesplat::app {
@@ -30,6 +33,11 @@ class SensingChain {
                                                       KeyframeStage::KeyframeSink sink,
                                                       const Clock& work_clock, metrics::Registry& metrics);
 
+  /// A pose at each sample of the IMU, as soon as it is there, with the sample's arrival; called within
+  /// sync().
+  using PoseSink = std::function<void(const tracking::StreamedPose&, HostTime arrival)>;
+  void stream_poses_to(PoseSink sink) { pose_sink_ = std::move(sink); }
+
   [[nodiscard]] std::vector<ReadyGroup> sync(sensor::Measurement measurement);
   [[nodiscard]] std::vector<ReadyGroup> flush();
   /// Nothing for a group that tracking refused (counted and logged).
@@ -46,14 +54,19 @@ class SensingChain {
                const Clock& work_clock, metrics::Registry& metrics);
 
   void watch_clocks();
+  void stream_pose(const sync::GroupImu& sample);
 
   const Clock& work_clock_;
   sync::GroupBuilder group_builder_;
   std::unique_ptr<tracking::Tracker> tracker_;
+  tracking::PoseStream pose_stream_;
+  PoseSink pose_sink_;
+  HostTime sample_arrival_{};  ///< of the measurement that sync() has in hand
   KeyframeStage keyframe_stage_;
   std::uint64_t clock_lies_ = 0;  ///< said so far
   metrics::Histogram& track_ms_;
   metrics::Counter& refused_groups_;
+  metrics::Counter& streamed_poses_;
 };
 
 }  // namespace edgesplat::app

@@ -4,6 +4,8 @@
 
 #include "robot/sync/group_stages.hpp"
 
+#include <utility>
+
 namespace edgesplat::sync {
 
 GroupBuilder::GroupBuilder(const GroupBuilderConfig& config, const sensor::Rig& rig)
@@ -11,6 +13,10 @@ GroupBuilder::GroupBuilder(const GroupBuilderConfig& config, const sensor::Rig& 
 GroupBuilder::GroupBuilder(GroupBuilder&&) noexcept = default;
 GroupBuilder& GroupBuilder::operator=(GroupBuilder&&) noexcept = default;
 GroupBuilder::~GroupBuilder() = default;
+
+void GroupBuilder::on_imu(std::function<void(const GroupImu&)> listener) {
+  stages_->on_imu(std::move(listener));
+}
 
 std::vector<MeasureGroup> GroupBuilder::push(sensor::Measurement measurement) {
   stages_->take_in(measurement);

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -66,6 +67,9 @@ class GroupBuilder {
   GroupBuilder& operator=(const GroupBuilder&) = delete;
   ~GroupBuilder();
 
+  /// Called within push() with each sample of the IMU that is taken in, in host time, before any group that
+  /// it completes.
+  void on_imu(std::function<void(const GroupImu&)> listener);
   /// The groups that this measurement completes, oldest first; mostly none or one.
   [[nodiscard]] std::vector<MeasureGroup> push(sensor::Measurement measurement);
   /// At the end of a recording: everything still buffered.

@@ -38,8 +38,9 @@ void GroupBuilder::Stages::take_in(const sensor::ImuSample& sample) {
   const HostTime t = time_base_.to_host(Stream::kImu, sample.stamp, sample.arrival, sample.stamp_source);
   if (!first_seen_) first_seen_ = t;
   imu_progress_.advance(t);
-  imu_.push({t, sample.gyro_radps, sample.accel_mps2}, settled_.value_or(kBeforeAll),
-            clamp_limit(Stream::kImu));
+  const GroupImu taken{t, sample.gyro_radps, sample.accel_mps2};
+  if (imu_listener_) imu_listener_(taken);
+  imu_.push(taken, settled_.value_or(kBeforeAll), clamp_limit(Stream::kImu));
 }
 
 void GroupBuilder::Stages::take_in(sensor::LidarPacket& packet) {

@@ -9,7 +9,9 @@
 #include "robot/sync/scan_queue.hpp"
 #include "robot/sync/time_base.hpp"
 
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace edgesplat::sync {
@@ -27,6 +29,7 @@ class GroupBuilder::Stages {
  public:
   Stages(const GroupBuilderConfig& config, const sensor::Rig& rig);
 
+  void on_imu(std::function<void(const GroupImu&)> listener) { imu_listener_ = std::move(listener); }
   void take_in(sensor::Measurement& measurement);
   /// Groups that can leave now; `all`: nothing more will come.
   [[nodiscard]] std::vector<MeasureGroup> drain(bool all);
@@ -55,6 +58,7 @@ class GroupBuilder::Stages {
   [[nodiscard]] nanoseconds clamp_limit(Stream stream) const;
 
   GroupBuilderConfig config_;
+  std::function<void(const GroupImu&)> imu_listener_;
   bool has_imu_;
   bool has_camera_;
   bool whole_scans_ = false;  ///< the LiDAR delivers scans: they make the groups

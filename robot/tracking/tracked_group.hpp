@@ -60,6 +60,7 @@ struct TrackedGroup {
   Eigen::Vector3d velocity_in_odom_mps = Eigen::Vector3d::Zero();
   Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();
   Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gravity_in_odom_mps2 = Eigen::Vector3d(0.0, 0.0, -9.81);
   TrackingHealth health;
   std::vector<DeskewedPoint> points_in_body;
 };

@@ -195,6 +195,7 @@ TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUp
   tracked.odom_from_body = at_end.state.odom_from_body;
   tracked.pose_covariance = at_end.covariance.topLeftCorner<6, 6>();
   tracked.velocity_in_odom_mps = at_end.state.velocity_in_odom_mps;
+  tracked.gravity_in_odom_mps2 = at_end.state.gravity_in_odom_mps2;
   if (with_imu) {
     tracked.gyro_bias_radps = belief->state.gyro_bias_radps;
     tracked.accel_bias_mps2 = belief->state.accel_bias_mps2;

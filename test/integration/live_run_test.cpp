@@ -112,6 +112,22 @@ TEST_F(LiveRun, TracksRecordsAndReplaysWhatItRecorded) {
   }
 }
 
+// 6 s at the IMU's 200 Hz, from the first tracked pose on, each as soon as its sample is there.
+TEST_F(LiveRun, StreamsAPoseForEachSampleOfTheImu) {
+  const auto run = drive({"--out", in_folder("run")}, {});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto metrics = nlohmann::json::parse(text_of(in_folder("run/robot/metrics.json")));
+  EXPECT_GT(metrics["counters"]["pose_stream.poses"].get<int>(), kMustKeepUp ? 1000 : 100);
+  const auto& latency_ms = metrics["histograms"]["pose_stream.latency_ms"];
+  EXPECT_EQ(latency_ms["count"], metrics["counters"]["pose_stream.poses"]);
+  EXPECT_LT(latency_ms["p50"].get<double>(), 5.0);
+  const auto accuracy =
+      run_program("edgesplat", {"evaluate", "--estimate", in_folder("run/robot/imu_rate.tum"), "--reference",
+                                in_folder("run/robot/trajectory.tum"), "--json"});
+  ASSERT_EQ(accuracy.exit_code, 0) << accuracy.err;
+  EXPECT_LT(nlohmann::json::parse(accuracy.out)["ate_m"]["rmse"].get<double>(), 0.03);
+}
+
 TEST_F(LiveRun, AGigeCameraDoesTheSame) {
   if (!aravis::has_aravis()) GTEST_SKIP() << "built without libaravis";
   const std::string address = own_loopback_address();

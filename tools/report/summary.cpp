@@ -99,6 +99,11 @@ Summary summarise(const RunFolder& run, const std::vector<Reference>& references
   }
   s.track_ms_p50 = percentile(run.groups.numbers("track_ms"), 0.50);
   s.track_ms_p95 = percentile(run.groups.numbers("track_ms"), 0.95);
+  if (const auto streamed = find_metric(run.robot_metrics, {"pose_stream.poses"});
+      streamed && s.duration_s > 0)
+    s.pose_stream_hz = *streamed / s.duration_s;
+  s.pose_latency_ms_p50 = find_histogram(run.robot_metrics, "pose_stream.latency_ms", "p50");
+  s.pose_latency_ms_p99 = find_histogram(run.robot_metrics, "pose_stream.latency_ms", "p99");
   s.realtime_factor = realtime_factor(run, s.duration_s);
   s.packets_lost = packets_lost(run.robot_metrics);
   s.gaussians = gaussians_drawn(run.robot_metrics);
@@ -135,6 +140,9 @@ nlohmann::json to_json(const Summary& s, const std::vector<Reference>& reference
                          {"path_m", or_null(s.path_m)},
                          {"track_ms_p50", or_null(s.track_ms_p50)},
                          {"track_ms_p95", or_null(s.track_ms_p95)},
+                         {"pose_stream_hz", or_null(s.pose_stream_hz)},
+                         {"pose_latency_ms_p50", or_null(s.pose_latency_ms_p50)},
+                         {"pose_latency_ms_p99", or_null(s.pose_latency_ms_p99)},
                          {"realtime_factor", or_null(s.realtime_factor)},
                          {"packets_lost", or_null(s.packets_lost)},
                          {"gaussians", or_null(s.gaussians)},

@@ -26,6 +26,9 @@ struct Summary {
   std::optional<double> path_m;  ///< of the reference, else of the estimate
   std::optional<double> track_ms_p50;
   std::optional<double> track_ms_p95;
+  std::optional<double> pose_stream_hz;       ///< poses at the IMU's rate
+  std::optional<double> pose_latency_ms_p50;  ///< from a sample's arrival to its pose; live runs
+  std::optional<double> pose_latency_ms_p99;
   std::optional<double> realtime_factor;  ///< recorded seconds per second of work of the busier stage
   std::optional<double> packets_lost;
   std::optional<double> gaussians;

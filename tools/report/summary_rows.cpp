@@ -37,6 +37,10 @@ std::vector<SummaryRow> summary_rows(const Summary& s) {
   };
   std::string track = text_or_dash(s.track_ms_p50, "ms median", 1);
   if (s.track_ms_p95) track += fmt::format(", {:.1f} ms p95", *s.track_ms_p95);
+  std::string stream = text_or_dash(s.pose_stream_hz, "Hz", 0);
+  if (s.pose_latency_ms_p50)
+    stream += fmt::format(", {:.2f} ms after the sample (median)", *s.pose_latency_ms_p50);
+  if (s.pose_latency_ms_p99) stream += fmt::format(", {:.1f} ms p99", *s.pose_latency_ms_p99);
   std::string end_to_end = text_or_dash(s.ete_m, "m", 3);
   if (s.ete_percent) end_to_end += fmt::format(" ({:.2f} % of the path)", *s.ete_percent);
   std::string quality = text_or_dash(s.render_psnr_db, "dB", 1);
@@ -52,6 +56,7 @@ std::vector<SummaryRow> summary_rows(const Summary& s) {
       {"Trajectory error (ATE rmse)", text_or_dash(s.ate_rmse_m, "m", 3)},
       {"Error at the end (ETE)", end_to_end},
       {"Tracking time per group", track},
+      {"Poses at the IMU's rate", stream},
       {"Real-time factor", text_or_dash(s.realtime_factor, "x", 1)},
       {"Packets lost", text_or_dash(s.packets_lost, "", 0)},
       {"Keyframes", text_or_dash(s.keyframes, "", 0)},

@@ -49,6 +49,8 @@ TEST(WriteReport, AWholeRunGivesItsFigures) {
   EXPECT_LT(summary["ate_rmse_m"], 0.06);
   EXPECT_NEAR(summary["track_ms_p50"], 18.0, 1.0);
   EXPECT_GT(summary["track_ms_p95"], summary["track_ms_p50"]);
+  EXPECT_NEAR(summary["pose_stream_hz"], 200.0, 1.0);
+  EXPECT_EQ(summary["pose_latency_ms_p99"], 2.5);
   EXPECT_NEAR(summary["realtime_factor"], 19.9 / (200 * 0.0183), 0.3);
   EXPECT_EQ(summary["packets_lost"], 7);
   EXPECT_EQ(summary["gaussians"], 52300);

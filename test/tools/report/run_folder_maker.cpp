@@ -123,11 +123,11 @@ Status write_modes(const std::filesystem::path& folder) {
 }
 
 constexpr const char* kRobotMetrics = R"({
- "counters": {"livox.points.lost": 6, "livox.imu.lost": 1, "sync.late_points": 0, "tracking.coasted_groups": 2, "keyframes.made": 40,
+ "counters": {"livox.points.lost": 6, "livox.imu.lost": 1, "sync.late_points": 0, "tracking.coasted_groups": 2, "keyframes.made": 40, "pose_stream.poses": 3980,
    "link.bytes_up": 3000000, "map.hash_agreed": 17, "map.hash_disagreed": 0},
  "gauges": {"map.gaussians": 52000, "local.gaussians": 300},
  "histograms": {"tracking.group_ms": {"count": 200, "mean": 18.4, "min": 12.0, "p50": 18.1, "p95": 22.0, "p99": 33.0,
-   "max": 36.0}},
+   "max": 36.0}, "pose_stream.latency_ms": {"count": 3980, "p50": 0.1, "p95": 0.6, "p99": 2.5}},
  "process": {"rss_bytes": 200000000, "peak_rss_bytes": 250000000, "cpu_s": 9.5}})";
 
 }  // namespace
