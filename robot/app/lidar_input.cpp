@@ -19,13 +19,15 @@ void log_event(const livox::LidarEvent& event) {
   }
 }
 
-livox::LidarDriverConfig driver_config(const robot_config::LivoxSettings& settings, const sensor::Rig& rig) {
+livox::LidarDriverConfig driver_config(const robot_config::LivoxSettings& settings, bool sees_pulses,
+                                       const sensor::Rig& rig) {
   livox::LidarDriverConfig config;
   config.choice = settings.model;
   config.serial_number = settings.serial;
   config.has_imu = rig.imu.has_value();
   config.return_mode = settings.returns;
   config.feeds_utc = settings.pulse_per_second;
+  config.sees_pulses = sees_pulses;
   config.transport.bind_address = settings.bind_address;
   config.transport.lidar_address = settings.address;
   config.transport.points_port = settings.points_port;
@@ -48,13 +50,14 @@ void publish_stream(metrics::Registry& metrics, const std::string& name, const l
 }  // namespace
 
 Result<std::unique_ptr<LidarInput>> LidarInput::open(const robot_config::LivoxSettings& settings,
-                                                     const sensor::Rig& rig, const Clock& clock, Sink sink,
+                                                     bool sees_pulses, const sensor::Rig& rig,
+                                                     const Clock& clock, Sink sink,
                                                      replay::Recorder* recorder) {
   livox::LidarDriver::Outputs outputs{std::move(sink), log_event, {}};
   if (recorder != nullptr)
     outputs.datagram = [recorder](const livox::Datagram& datagram) { recorder->on_datagram(datagram); };
-  EDGESPLAT_TRY(auto driver,
-                livox::LidarDriver::open(driver_config(settings, rig), clock, std::move(outputs)));
+  EDGESPLAT_TRY(auto driver, livox::LidarDriver::open(driver_config(settings, sees_pulses, rig), clock,
+                                                      std::move(outputs)));
   const livox::LivoxTransport& transport = driver->transport();
   EDGESPLAT_LOG_INFO("livox", "listening", "points_port", transport.points_port(), "imu_port",
                      transport.imu_port(), "receive_buffer_bytes", transport.receive_buffer_bytes());

@@ -10,6 +10,7 @@
 #include "robot/drivers/livox/lidar_driver.hpp"
 #include "robot/drivers/replay/recorder.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <stop_token>
@@ -23,11 +24,14 @@ class LidarInput {
   using Sink = std::function<void(sensor::Measurement)>;
 
   /// Opens the sockets. Errors: those of livox::LidarDriver::open.
+  /// `sees_pulses`: on_pulse() will be called.
   static Result<std::unique_ptr<LidarInput>> open(const robot_config::LivoxSettings& settings,
-                                                  const sensor::Rig& rig, const Clock& clock, Sink sink,
-                                                  replay::Recorder* recorder);
+                                                  bool sees_pulses, const sensor::Rig& rig,
+                                                  const Clock& clock, Sink sink, replay::Recorder* recorder);
   /// Receives until `stop` is requested.
   void run(const std::stop_token& stop);
+  /// See LidarDriver::on_pulse; from any thread.
+  void on_pulse(HostTime edge, std::int64_t utc_ns) { driver_->on_pulse(edge, utc_ns); }
   /// Packets received, lost, refused, and the events; call after run().
   void publish_counters(metrics::Registry& metrics) const;
 

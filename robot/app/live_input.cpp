@@ -5,6 +5,7 @@
 #include "common/thread/worker.hpp"
 #include "robot/app/camera_input.hpp"
 #include "robot/app/lidar_input.hpp"
+#include "robot/app/pps_input.hpp"
 #include "robot/app/serial_input.hpp"
 
 #include <optional>
@@ -23,6 +24,7 @@ LiveInput::Sink without_imu(const LiveInput::Sink& sink) {
 
 struct LiveInput::Devices {
   std::unique_ptr<LidarInput> lidar;
+  std::optional<PpsInput> pps;
   std::optional<SerialInput> serial;
   std::unique_ptr<sync::TriggeredStamps> pulses;  ///< null: no pulses are reported
   std::unique_ptr<CameraInput> camera;            ///< null: the rig has none
@@ -38,7 +40,12 @@ Result<std::unique_ptr<LiveInput>> LiveInput::open(const robot_config::RobotConf
                                                    replay::Recorder* recorder) {
   // With an inertial sensor of its own the LiDAR's is not heard.
   const Sink lidar_sink = config.serial.imu ? without_imu(sink) : sink;
-  EDGESPLAT_TRY(auto lidar, LidarInput::open(config.livox, rig, clock, lidar_sink, recorder));
+  EDGESPLAT_TRY(auto lidar,
+                LidarInput::open(config.livox, !config.pps.device.empty(), rig, clock, lidar_sink, recorder));
+  std::optional<PpsInput> pps;
+  if (!config.pps.device.empty()) {
+    EDGESPLAT_TRY(pps, PpsInput::open(config.pps, clock));
+  }
   std::optional<SerialInput> serial;
   if (config.serial.imu || config.serial.trigger) {
     EDGESPLAT_TRY(serial, SerialInput::open(config.serial, clock));
@@ -53,8 +60,9 @@ Result<std::unique_ptr<LiveInput>> LiveInput::open(const robot_config::RobotConf
   if (rig.camera) {
     EDGESPLAT_TRY(camera, open_camera(config.camera, *rig.camera, clock, pulses.get()));
   }
-  auto devices = std::make_unique<Devices>(Devices{std::move(lidar), std::move(serial), std::move(pulses),
-                                                   std::move(camera), std::move(sink), recorder});
+  auto devices =
+      std::make_unique<Devices>(Devices{std::move(lidar), std::move(pps), std::move(serial),
+                                        std::move(pulses), std::move(camera), std::move(sink), recorder});
   return std::unique_ptr<LiveInput>(new LiveInput(std::move(devices)));
 }
 
@@ -73,6 +81,14 @@ void LiveInput::run(const std::stop_token& stop) {
       return false;
     }));
   }
+  std::optional<thread::Worker> pps;
+  if (devices_->pps) {
+    pps.emplace(thread::Worker("pps", [this, &stop](const std::stop_token&) {
+      devices_->pps->receive(
+          stop, [this](HostTime edge, std::int64_t utc_ns) { devices_->lidar->on_pulse(edge, utc_ns); });
+      return false;
+    }));
+  }
   thread::Worker lidar("lidar", [this, &stop](const std::stop_token&) {
     devices_->lidar->run(stop);
     return false;
@@ -80,10 +96,12 @@ void LiveInput::run(const std::stop_token& stop) {
   lidar.join();
   if (camera) camera->join();
   if (serial) serial->join();
+  if (pps) pps->join();
 }
 
 void LiveInput::publish_counters(metrics::Registry& metrics) const {
   devices_->lidar->publish_counters(metrics);
+  if (devices_->pps) devices_->pps->publish_counters(metrics);
   if (devices_->serial) devices_->serial->publish_counters(metrics);
   if (devices_->camera) devices_->camera->publish_counters(metrics);
 }

@@ -26,7 +26,7 @@ void describe_livox(ConfigReader& reader, LivoxSettings& c) {
                  {"triple", livox::ReturnMode::kTriple}},
                 "of each shot of an Avia");
   reader.field("pulse_per_second", c.pulse_per_second,
-               "a pulse at each full second of UTC reaches it: it is told which second");
+               "a pulse a second reaches it: it is told which; see [pps]");
   reader.field("bind_address", c.bind_address, "address of the interface the LiDAR is on; 0.0.0.0 = all");
   reader.field("points_port", c.points_port, {1, 65535}, "UDP port the points arrive at");
   reader.field("imu_port", c.imu_port, {1, 65535}, "UDP port the IMU samples arrive at");
@@ -50,6 +50,16 @@ void describe_serial(ConfigReader& reader, SerialSettings& c) {
   reader.field("path", c.port.path, "the serial device");
   reader.field("baud", c.port.baud, {9600, 1000000}, "a rate that serial lines have");
   reader.field("silence_s", c.port.silence_s, Range{0.05, 60.0}, "no byte this long: opened anew");
+}
+
+void describe_pps(ConfigReader& reader, PpsSettings& c) {
+  reader.field(
+      "device", c.device,
+      "where the LiDAR's pulse is captured too, as /dev/pps0; empty = it comes at full seconds of this "
+      "machine's clock");
+  reader.field(
+      "on_seconds", c.on_seconds,
+      "it begins full seconds of UTC, as a GPS receiver's; false = anywhere, as a microcontroller's");
 }
 
 void describe_ptp(ConfigReader& reader, PtpSettings& c) {
@@ -157,6 +167,7 @@ void describe(ConfigReader& reader, RobotConfig& c) {
   reader.table("camera", "the camera", [&] { describe_camera(reader, c.camera); });
   reader.table("serial", "an inertial sensor or trigger pulses on a serial line",
                [&] { describe_serial(reader, c.serial); });
+  reader.table("pps", "the pulse-per-second line", [&] { describe_pps(reader, c.pps); });
   reader.table("ptp", "the watch over PTP on this machine", [&] { describe_ptp(reader, c.ptp); });
   reader.table("sync", "measurements to groups", [&] { describe_sync(reader, c.sync); });
   reader.table("camera_offset", "a check of the camera's stamps by what it sees",

@@ -55,6 +55,12 @@ struct SerialSettings {
   serial_imu::SerialPortConfig port;
 };
 
+/// The once-a-second pulse as this machine captures it.
+struct PpsSettings {
+  std::string device;  ///< "/dev/pps0"; empty: not captured
+  bool on_seconds = true;
+};
+
 /// The watch over PTP on this machine (linuxptp).
 struct PtpSettings {
   bool watch = false;
@@ -108,6 +114,7 @@ struct RobotConfig {
   LivoxSettings livox;
   CameraSettings camera;
   SerialSettings serial;
+  PpsSettings pps;
   PtpSettings ptp;
   sync::GroupBuilderConfig sync;
   sync::CameraOffset::Config camera_offset;

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cmath>
+#include <limits>
 #include <system_error>
 
 namespace edgesplat::sync {
@@ -18,6 +19,7 @@ constexpr double kTolerance = 1e-3;  // 1000 ppm: no crystal is that bad
 constexpr std::int64_t kMostSeconds = 60;
 constexpr int kStraysForRestart = 3;
 constexpr double kSmoothing = 0.1;
+constexpr std::int64_t kMostOffSecond_ns = 300'000'000;
 
 std::string system_text(int error) {
   return std::generic_category().message(error);
@@ -86,6 +88,17 @@ bool PpsTrack::add(const PpsEdge& edge) {
   jitter_us_ += kSmoothing * (std::abs(error_ppm - period_error_ppm_) - jitter_us_);
   newest_ = edge;
   return true;
+}
+
+std::optional<std::int64_t> utc_of_edge(const PpsEdge& edge, bool on_seconds) {
+  if (edge.wall_ns < 0) return std::nullopt;  // before 1970
+  if (!on_seconds) return edge.wall_ns;
+  const std::int64_t since_second_ns = edge.wall_ns % kSecond_ns;
+  if (since_second_ns <= kMostOffSecond_ns) return edge.wall_ns - since_second_ns;
+  const std::int64_t to_second_ns = kSecond_ns - since_second_ns;
+  if (to_second_ns > kMostOffSecond_ns) return std::nullopt;
+  if (edge.wall_ns > std::numeric_limits<std::int64_t>::max() - to_second_ns) return std::nullopt;
+  return edge.wall_ns + to_second_ns;
 }
 
 }  // namespace edgesplat::sync

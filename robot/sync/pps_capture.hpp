@@ -58,4 +58,9 @@ class PpsTrack {
   PpsCounters counters_;
 };
 
+/// Which moment an edge was, ns since 1970. `on_seconds`: the pulses begin full seconds of UTC (a GPS
+/// receiver's), and the wall clock, right to 0.3 s, says which; nothing where it is further off. Else they
+/// begin anywhere (a microcontroller's), and what the wall clock showed at the edge is the moment.
+[[nodiscard]] std::optional<std::int64_t> utc_of_edge(const PpsEdge& edge, bool on_seconds);
+
 }  // namespace edgesplat::sync

@@ -60,7 +60,8 @@ LidarDriver::LidarDriver(const LidarDriverConfig& config, LivoxTransport transpo
     : clock_(clock),
       outputs_(std::move(outputs)),
       transport_(std::move(transport)),
-      source_(protocol_of(config.choice)) {
+      source_(protocol_of(config.choice)),
+      sees_pulses_(config.sees_pulses) {
   if (config.choice == LidarChoice::kListen) return;
   LidarSessionConfig session;
   session.serial_number = config.serial_number;
@@ -88,12 +89,34 @@ Status LidarDriver::step(const std::stop_token& stop) {
   for (const Datagram& datagram : batch) handle(datagram, now);
   watch_clock();
   if (!session_) return {};
+  tell_time(now);
   if (std::exchange(step_is_due_, false) || now >= next_step_) {
-    if (session_->config().feeds_utc) session_->utc_feed().follow_wall_clock(now, wall_ns());
     next_step_ = session_->step(now);
   }
   flush_session();
   return {};
+}
+
+void LidarDriver::on_pulse(HostTime edge, std::int64_t utc_ns) {
+  const std::lock_guard lock(pulse_mutex_);
+  pulse_ = Pulse{edge, utc_ns};
+}
+
+/// What the session has to know of UTC before its next step.
+void LidarDriver::tell_time(HostTime now) {
+  if (!session_->config().feeds_utc) return;
+  if (!sees_pulses_) {
+    session_->utc_feed().follow_wall_clock(now, wall_ns());
+    return;
+  }
+  std::optional<Pulse> pulse;
+  {
+    const std::lock_guard lock(pulse_mutex_);
+    pulse = std::exchange(pulse_, std::nullopt);
+  }
+  if (!pulse) return;
+  session_->utc_feed().on_pulse(pulse->edge, pulse->utc_ns);
+  step_is_due_ = true;
 }
 
 void LidarDriver::handle(const Datagram& datagram, HostTime now) {

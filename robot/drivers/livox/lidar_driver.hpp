@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -30,11 +32,12 @@ struct LidarDriverConfig {
   bool has_imu = true;
   ReturnMode return_mode = ReturnMode::kFirst;  ///< kAvia
   bool feeds_utc =
-      false;  ///< on a pulse-per-second line at whole seconds: told UTC from this machine's clock
+      false;  ///< on a pulse-per-second line: told UTC, by this machine's clock at whole seconds ...
+  bool sees_pulses = false;  ///< ... or, where its edges are captured, for each that on_pulse() reports
 };
 
-/// One LiDAR with everything it needs: sockets, session, packets to measurements. Thread-bound: one thread
-/// calls step() again and again.
+/// One LiDAR with everything it needs: sockets, session, packets to measurements. Thread-bound but for
+/// on_pulse(): one thread calls step() again and again.
 class LidarDriver {
  public:
   /// Who gets what; called from step().
@@ -50,6 +53,9 @@ class LidarDriver {
 
   /// Waits for datagrams, at most half a second, and handles what came and what is due. kIo.
   [[nodiscard]] Status step(const std::stop_token& stop);
+  /// An edge of the pulse-per-second line at `edge`, which is `utc_ns` since 1970; from any thread, within
+  /// 0.1 s.
+  void on_pulse(HostTime edge, std::int64_t utc_ns);
   /// Lets the LiDAR go, where its protocol knows that.
   void stop();
 
@@ -69,6 +75,7 @@ class LidarDriver {
   void handle(const Datagram& datagram, HostTime now);
   void watch_clock();
   void flush_session();
+  void tell_time(HostTime now);
 
   const Clock& clock_;
   Outputs outputs_;
@@ -80,6 +87,13 @@ class LidarDriver {
   std::uint64_t clock_changes_ = 0;
   std::uint64_t clock_restarts_ = 0;
   std::uint64_t foreign_data_ = 0;
+  bool sees_pulses_ = false;
+  struct Pulse {
+    HostTime edge;
+    std::int64_t utc_ns;
+  };
+  std::mutex pulse_mutex_;
+  std::optional<Pulse> pulse_;  ///< the newest, not yet taken; under pulse_mutex_
 };
 
 }  // namespace edgesplat::livox

@@ -240,6 +240,25 @@ TEST_P(LidarSessionTest, ToldSecondsReachAUnitOnAPulseLineInItsWindow) {
   EXPECT_LT(std::abs(unit_->clock().stamp_ns(wire_->now_ns()) - wire_->now_ns()), 20'000);
 }
 
+TEST_P(LidarSessionTest, EdgesThatWereSeenAreToldWhereverInASecondTheyAre) {
+  LidarSessionConfig config = session_config(GetParam());
+  config.feeds_utc = true;
+  VirtualUnitConfig unit = unit_config();
+  unit.clock.sync = UnitSync::kPulse;
+  set_up(config, unit);
+  constexpr std::int64_t kPhase_ns = 370'000'000;
+  unit_->clock().set_epoch(-kPhase_ns);  // its line's pulses come that long after each full second
+  for (int ms = 0; ms < 10'000; ++ms) {
+    const HostTime now = host_time_from_ns(wire_->now_ns() - VirtualWire::kStart_ns + 1'000'000'000);
+    if (wire_->now_ns() % 1'000'000'000 == kPhase_ns) session_->utc_feed().on_pulse(now, wire_->now_ns());
+    wire_->run(0.001);
+  }
+  EXPECT_GE(unit_->counters().seconds_told, 7U);
+  EXPECT_EQ(unit_->counters().seconds_late, 0U);
+  EXPECT_EQ(session_->health().sync, "gps");
+  EXPECT_LT(std::abs(unit_->clock().stamp_ns(wire_->now_ns()) - wire_->now_ns()), 20'000);
+}
+
 TEST_P(LidarSessionTest, DamagedFramesAreCountedAndChangeNothing) {
   bring_up();
   test::Random random(3);

@@ -54,6 +54,25 @@ TEST(PpsTrack, AbsurdStampsAreBorne) {
   EXPECT_EQ(track.counters().lost, 0U);
 }
 
+TEST(PpsEdge, OnFullSecondsTheNearestOneIsMeantWhileTheWallClockTellsWhich) {
+  const auto of = [](std::int64_t wall_ns) { return utc_of_edge({1, wall_ns}, true); };
+  constexpr std::int64_t kAt_ns = 1'700'000'000 * kSecond_ns;
+  EXPECT_EQ(of(kAt_ns), kAt_ns);
+  EXPECT_EQ(of(kAt_ns + 299'000'000), kAt_ns);
+  EXPECT_EQ(of(kAt_ns - 299'000'000), kAt_ns);
+  EXPECT_FALSE(of(kAt_ns + 301'000'000).has_value());
+  EXPECT_FALSE(of(kAt_ns + 500'000'000).has_value());
+  EXPECT_FALSE(of(kAt_ns - 301'000'000).has_value());
+  for (const std::int64_t absurd :
+       {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1}, std::numeric_limits<std::int64_t>::max()})
+    EXPECT_FALSE(of(absurd).has_value()) << absurd;
+}
+
+TEST(PpsEdge, PulsesThatBeginAnywhereAreWhatTheWallClockShows) {
+  EXPECT_EQ(utc_of_edge({1, 1'700'000'000'370'000'123}, false), 1'700'000'000'370'000'123);
+  EXPECT_FALSE(utc_of_edge({1, -5}, false).has_value());
+}
+
 TEST(PpsDevice, SaysWhatIsWrongWithAPath) {
   const auto absent = PpsDevice::open("/dev/no-such-pps");
   ASSERT_FALSE(absent.has_value());
