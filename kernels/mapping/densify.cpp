@@ -51,6 +51,8 @@ std::vector<std::uint32_t> useless_rows(const Optimiser& optimiser, const Densif
     const RowStatistics& seen = optimiser.statistics()[row];
     if (opacity_of(cloud.opacity_logits[row]) < options.min_opacity) {
       ++report.transparent;
+    } else if (optimiser.switches().of(row) < optimiser.switches().least()) {
+      ++report.switched_off;
     } else if (seen.radius_max_px > options.max_radius_px || sigma_m(cloud, row) > options.max_sigma_m) {
       ++report.large;
     } else if (seen.sightings >= options.min_sightings && mean_weight(seen) < options.min_weight_px) {
@@ -151,6 +153,11 @@ void grow(Optimiser& optimiser, std::span<const std::uint32_t> rows, const Densi
   EDGESPLAT_CHECK(count.has_value() && *count == added.size(), "room was asked for");
 }
 
+std::size_t room_in(const Optimiser& optimiser, const DensifyOptions& options) {
+  const std::size_t rows = optimiser.cloud().size();
+  return std::min(optimiser.room(), options.max_rows - std::min(options.max_rows, rows));
+}
+
 }  // namespace
 
 DensifyReport densify(Optimiser& optimiser, const DensifyOptions& options, IdAllocator& ids) {
@@ -161,15 +168,15 @@ DensifyReport densify(Optimiser& optimiser, const DensifyOptions& options, IdAll
       static_cast<std::size_t>(options.grow_share * static_cast<float>(optimiser.cloud().size()));
   const std::size_t wanted = wanting.size();
   wanting.resize(std::min(wanting.size(), most));
-  if (wanting.size() > optimiser.room()) {
-    const auto shed = rows_to_shed(optimiser, options, wanting.size() - optimiser.room());
+  if (wanting.size() > room_in(optimiser, options)) {
+    const auto shed = rows_to_shed(optimiser, options, wanting.size() - room_in(optimiser, options));
     report.shed = shed.size();
     remove(optimiser, shed, report);
     if (!shed.empty()) {  // rows have moved up
       wanting = wanting_rows(optimiser, options);
       wanting.resize(std::min(wanting.size(), most));
     }
-    wanting.resize(std::min(wanting.size(), optimiser.room()));
+    wanting.resize(std::min(wanting.size(), room_in(optimiser, options)));
   }
   report.refused = wanted - wanting.size();
   grow(optimiser, wanting, options, ids, report);

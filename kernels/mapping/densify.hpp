@@ -26,11 +26,13 @@ struct DensifyOptions {
   /// With the budget used up, at most this share of the map goes, least useful first, for what needs room,
   /// 0..0.5
   float shed_share = 0.02F;
+  std::size_t max_rows = ~std::size_t{0};  ///< the budget, where it is less than the optimiser's
 };
 
 struct DensifyReport {
   std::vector<gaussian::GaussianId> removed;
   std::size_t transparent = 0, large = 0, idle = 0, shed = 0;  ///< why they were removed
+  std::size_t switched_off = 0;                                ///< of them, by differentiable pruning
   std::size_t cloned = 0, split = 0;
   std::size_t refused = 0;  ///< wanted to grow, had no room
 };

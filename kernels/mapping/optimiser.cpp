@@ -62,7 +62,8 @@ Optimiser::Optimiser(const OptimiserOptions& options, const Clock& clock)
     : options_(options),
       clock_(&clock),
       adam_(options.sh_degree, options.adam),
-      exposures_(options.exposure) {
+      exposures_(options.exposure),
+      switches_(options.prune) {
   cloud_.sh_degree = options.sh_degree;
 }
 
@@ -95,6 +96,7 @@ Result<std::size_t> Optimiser::add_rows(const GaussianCloud& rows) {
   } else {
     adam_.resize(cloud_.size());
   }
+  switches_.append(cloud_.opacity_logits);
   statistics_.resize(cloud_.size());
   return count;
 }
@@ -123,6 +125,7 @@ void Optimiser::keep_rows(std::span<const std::uint32_t> rows) {
   } else {
     adam_.keep_rows(rows);
   }
+  switches_.keep_rows(rows);
   changes_.keep_rows(rows);
   mapping::keep_rows(rows, statistics_);
 }
@@ -162,6 +165,7 @@ void Optimiser::forget_moments(std::span<const std::uint32_t> rows) {
     } else {
       adam_.reset_row(row);
     }
+    if (switches_.enabled()) switches_.forget_moments(row);
   }
 }
 
@@ -233,7 +237,7 @@ void Optimiser::move_rows(const splat::View& view, const train::BlendGradients& 
       splat::spans_of(cloud_), view, options_.render, gradients.by_row,
       [&](const train::GradientBlock& block) {
         losses[block.number] = regularise(block, gradients.seen);
-        adam_.step(block.rows, block.values, options_.rates, cloud_);
+        step_rows(block, gradients.seen, losses[block.number]);
         for (std::size_t i = 0; i < block.rows.size(); ++i) {
           changes_.touch(block.rows[i]);
           add_sighting(block.sightings[i], half_width_px, statistics_[block.rows[i]]);
@@ -241,6 +245,17 @@ void Optimiser::move_rows(const splat::View& view, const train::BlendGradients& 
       });
   for (const double loss : losses) report.loss += loss;
   report.visible = gradients.seen;
+}
+
+void Optimiser::step_rows(const train::GradientBlock& block, std::size_t visible, double& loss) {
+  if (!switches_.enabled()) {
+    adam_.step(block.rows, block.values, options_.rates, cloud_);
+    return;
+  }
+  loss += switches_.before_step(block, train::ParameterRow::stride(options_.sh_degree),
+                                1.0F / static_cast<float>(visible), cloud_.opacity_logits);
+  adam_.step(block.rows, block.values, options_.rates, cloud_);
+  switches_.after_step(block, cloud_.opacity_logits);
 }
 
 Result<StepReport> Optimiser::step(const TrainingView& view) {

@@ -5,6 +5,7 @@
 #include "common/gaussian/gaussian_cloud.hpp"
 #include "common/time/clock.hpp"
 #include "kernels/mapping/optimiser_options.hpp"
+#include "kernels/mapping/prune_switches.hpp"
 #include "kernels/mapping/row_changes.hpp"
 #include "kernels/mapping/row_statistics.hpp"
 #include "kernels/mapping/training_view.hpp"
@@ -90,6 +91,8 @@ class Optimiser {
   [[nodiscard]] std::span<const RowStatistics> statistics() const { return statistics_; }
   void reset_statistics();
   [[nodiscard]] ExposureTable& exposures() { return exposures_; }
+  /// Of differentiable pruning; not enabled() unless OptimiserOptions::prune says so.
+  [[nodiscard]] const PruneSwitches& switches() const { return switches_; }
   [[nodiscard]] const OptimiserOptions& options() const { return options_; }
   /// Whether steps are taken on a GPU.
   [[nodiscard]] bool on_gpu() const { return device_ != nullptr; }
@@ -112,6 +115,8 @@ class Optimiser {
   void compare(const TrainingView& view, StepReport& report);
   /// Adds the regularisers' gradients to a block's, and returns what they cost.
   double regularise(const train::GradientBlock& block, std::size_t visible) const;
+  /// Adam, and the switches where there are any; adds what these cost to `loss`.
+  void step_rows(const train::GradientBlock& block, std::size_t visible, double& loss);
   /// From the splats' gradients to moved Gaussians.
   void move_rows(const splat::View& view, const train::BlendGradients& gradients, StepReport& report);
   void keep_rows(std::span<const std::uint32_t> rows);
@@ -128,6 +133,7 @@ class Optimiser {
   gaussian::GaussianCloud cloud_;
   train::Adam adam_;
   ExposureTable exposures_;
+  PruneSwitches switches_;
   RowChanges changes_;
   std::vector<RowStatistics> statistics_;
   // Kept from step to step for their memory only.

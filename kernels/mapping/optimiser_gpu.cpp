@@ -16,7 +16,7 @@ Optimiser& Optimiser::operator=(Optimiser&&) noexcept = default;
 void Optimiser::open_gpu() {
 #ifdef EDGESPLAT_WITH_CUDA
   const auto fastest = core::choose_backend("auto");
-  if (options_.on_gpu && fastest && *fastest == core::Backend::kCuda) {
+  if (options_.on_gpu && !switches_.enabled() && fastest && *fastest == core::Backend::kCuda) {
     auto device = open_cuda_steps(options_);
     if (device) {
       device_ = std::move(*device);

@@ -37,6 +37,10 @@ Status OptimiserOptions::validate() const {
       Range{"depth_min_alpha", depth_min_alpha, 0.05F, 1.0F},
       Range{"gap_factor", gap_factor, 0.0F, 1.0F},
       Range{"opacity_factor", opacity_factor, 0.0F, 10.0F},
+      Range{"prune.factor", prune.factor, 0.0F, 10.0F},
+      Range{"prune.rate", prune.rate, 1e-3F, 1.0F},
+      Range{"prune.start", prune.start, 0.5F, 0.99F},
+      Range{"prune.min_switch", prune.min_switch, 0.0F, 0.5F},
       Range{"scale_factor", scale_factor, 0.0F, 10.0F},
   };
   for (const Range& range : ranges) {

@@ -4,6 +4,7 @@
 
 #include "common/base/result.hpp"
 #include "kernels/mapping/exposure.hpp"
+#include "kernels/mapping/prune_switches.hpp"
 #include "kernels/splat/view.hpp"
 #include "kernels/train/adam.hpp"
 
@@ -30,6 +31,7 @@ struct OptimiserOptions {
   float gap_factor = 0.0F;
   float opacity_factor = 0.0F;  ///< of the mean opacity of what a picture shows: thins the map out, 0..0.1
   float scale_factor = 0.0F;    ///< of the mean scale (m) of what a picture shows, 0..0.1
+  PruneOptions prune;           ///< differentiable pruning; with it steps are the CPU's alone
   bool on_gpu = true;           ///< where there is one
   std::size_t max_gaussians = 2'000'000;          ///< 1..2^31
   std::size_t max_bytes = std::size_t{4} << 30U;  ///< of parameters, moments and statistics

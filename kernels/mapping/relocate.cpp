@@ -25,12 +25,15 @@ float logit_of(float opacity) {
   return std::log(opacity / (1.0F - opacity));
 }
 
-std::vector<std::uint32_t> dead_rows(const GaussianCloud& cloud, const RelocateOptions& options) {
+std::vector<std::uint32_t> dead_rows(const Optimiser& optimiser, const RelocateOptions& options) {
+  const GaussianCloud& cloud = optimiser.cloud();
+  const PruneSwitches& switches = optimiser.switches();
   std::vector<std::uint32_t> rows;
   const float most = std::log(options.max_sigma_m);
   for (std::size_t row = 0; row < cloud.size(); ++row) {
     const float* s = &cloud.log_scales[3 * row];
-    if (opacity_of(cloud.opacity_logits[row]) < options.min_opacity || *std::max_element(s, s + 3) > most)
+    if (opacity_of(cloud.opacity_logits[row]) < options.min_opacity || *std::max_element(s, s + 3) > most ||
+        switches.of(row) < switches.least())
       rows.push_back(static_cast<std::uint32_t>(row));
   }
   return rows;
@@ -87,7 +90,7 @@ SharedLook shared_look(float opacity, std::size_t copies) {
 
 RelocateReport Relocator::relocate(Optimiser& optimiser, IdAllocator& ids) {
   RelocateReport report;
-  const auto dead = dead_rows(optimiser.cloud(), options_);
+  const auto dead = dead_rows(optimiser, options_);
   if (dead.size() == optimiser.cloud().size()) return report;  // nowhere to go
   for (const std::uint32_t row : dead) report.removed.push_back(optimiser.cloud().ids[row]);
   if (!dead.empty()) {

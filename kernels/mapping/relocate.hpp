@@ -46,6 +46,11 @@ class Relocator {
  public:
   explicit Relocator(const RelocateOptions& options) : options_(options), random_(options.seed) {}
 
+  /// From the next relocation on; as RelocateOptions'.
+  void set_growth(float grow_share, std::size_t max_rows) {
+    options_.grow_share = grow_share;
+    options_.max_rows = max_rows;
+  }
   RelocateReport relocate(Optimiser& optimiser, IdAllocator& ids);
   /// Moves the means of faint Gaussians (opacity below 0.05 or so) at random within their own extent, by
   /// `rate_share` of the option's noise. O(n), most of it looking at opacities.
