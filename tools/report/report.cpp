@@ -27,6 +27,7 @@ Result<Report> write_report(const ReportOptions& options) {
   body += map_section(run);
   body += held_out_section(run, options.max_keyframes);
   body += camera_section(pictures);
+  body += tracking_section(run);
   body += timing_section(run);
   body += modes_section(run, report.summary.link);
   body += losses_section(run);

@@ -40,14 +40,21 @@ Status write_groups(const std::filesystem::path& folder) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   std::string csv =
-      "stamp_s,state,points_in_group,points_used,residual_rms_m,track_ms,keyframe_ms,latency_ms\n";
+      "stamp_s,state,points_in_group,points_used,residual_rms_m,frozen_directions,weakest_signal,visual_"
+      "patches,"
+      "log_gain,track_ms,keyframe_ms,latency_ms\n";
   for (int i = 0; i < kGroups; ++i) {
     const double track_ms = 18.0 + 2.0 * normal(random) + (i % 50 == 0 ? 15.0 : 0.0);
     const double keyframe_ms = i % 5 == 0 ? 6.0 : 0.5;
-    csv += std::to_string(1.0 + 0.1 * i) + ",tracking," + std::to_string(20000 + i % 7 * 100) + "," +
-           std::to_string(1800 + i % 11 * 10) + "," +
-           std::to_string(0.012 + 0.001 * std::abs(normal(random))) + "," + std::to_string(track_ms) + "," +
-           std::to_string(keyframe_ms) + "," + std::to_string(track_ms + keyframe_ms + 4.0) + "\n";
+    csv += std::to_string(1.0 + 0.1 * i) + "," +
+           (i < 4                ? "initialising"
+            : i >= 80 && i < 100 ? "degraded"
+                                 : "tracking") +
+           "," + std::to_string(20000 + i % 7 * 100) + "," + std::to_string(1800 + i % 11 * 10) + "," +
+           std::to_string(0.012 + 0.001 * std::abs(normal(random))) +
+           (i >= 80 && i < 100 ? ",1,1.2," : ",0,40,") + std::to_string(200 + i % 40) + ",0.05," +
+           std::to_string(track_ms) + "," + std::to_string(keyframe_ms) + "," +
+           std::to_string(track_ms + keyframe_ms + 4.0) + "\n";
   }
   return io::write_file_atomically(folder / "robot" / "groups.csv", csv);
 }

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/report/html_page.hpp"
+#include "tools/report/run_metrics.hpp"
+#include "tools/report/sections.hpp"
+#include "tools/report/svg_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+namespace edgesplat::report {
+namespace {
+
+struct StateStyle {
+  const char* name;
+  const char* colour;
+};
+/// As health_csv names them; what needs a look stands out.
+constexpr std::array<StateStyle, 6> kStates{{{"initialising", "#b0b0b0"},
+                                             {"tracking", "none"},
+                                             {"degraded", kOrange},
+                                             {"coasting", kPurple},
+                                             {"lost", kRed},
+                                             {"recovered", kBlue}}};
+
+struct Groups {
+  std::vector<double> seconds;  ///< since the first one
+  std::vector<std::string> states;
+};
+
+Groups groups_of(const CsvTable& table) {
+  Groups groups{table.numbers("stamp_s"), table.texts("state")};
+  if (groups.states.size() != groups.seconds.size()) return {};
+  const double start = groups.seconds.empty() ? 0.0 : groups.seconds.front();
+  for (double& second : groups.seconds) second -= start;
+  return groups;
+}
+
+/// From each group to the next the state is the first one's.
+std::vector<Band> state_bands(const Groups& groups) {
+  std::vector<Band> bands;
+  for (std::size_t i = 0; i + 1 < groups.seconds.size(); ++i) {
+    const auto* style =
+        std::ranges::find_if(kStates, [&](const StateStyle& s) { return groups.states[i] == s.name; });
+    if (style == kStates.end() || std::string_view(style->colour) == "none") continue;
+    const bool goes_on =
+        !bands.empty() && bands.back().name == style->name && bands.back().x_max == groups.seconds[i];
+    if (goes_on) {
+      bands.back().x_max = groups.seconds[i + 1];
+    } else {
+      bands.push_back({style->name, style->colour, groups.seconds[i], groups.seconds[i + 1]});
+    }
+  }
+  return bands;
+}
+
+std::string states_text(const Groups& groups) {
+  std::string text;
+  for (const StateStyle& style : kStates) {
+    double seconds = 0.0;
+    for (std::size_t i = 0; i + 1 < groups.seconds.size(); ++i)
+      if (groups.states[i] == style.name) seconds += groups.seconds[i + 1] - groups.seconds[i];
+    if (seconds > 0.0) text += fmt::format("{}{} {:.1f} s", text.empty() ? "" : ", ", style.name, seconds);
+  }
+  return text;
+}
+
+struct Column {
+  const char* name;
+  const char* legend;
+  const char* colour;
+};
+/// A plot of those columns that there are; empty where there is none.
+std::string plot_of(const CsvTable& table, const Groups& groups, Plot plot,
+                    std::initializer_list<Column> columns) {
+  for (const Column& column : columns) {
+    if (!table.has(column.name)) continue;
+    plot.series.push_back({column.legend, column.colour, groups.seconds, table.numbers(column.name)});
+  }
+  if (plot.series.empty()) return "";
+  plot.bands = state_bands(groups);
+  plot.include_zero = true;
+  return draw(plot);
+}
+
+/// What the camera's own pictures say about its clock, and how far the devices' clocks are apart.
+std::string offsets_table(const nlohmann::json& metrics) {
+  std::vector<std::vector<std::string>> rows = {{"clock", "offset, ms", "drift, ppm", "jitter, us"}};
+  const auto text = [](const std::optional<double>& value, double scale, int decimals) {
+    return value ? fmt::format("{:.{}f}", *value * scale, decimals) : "-";
+  };
+  for (const char* device : {"points", "imu", "camera"}) {
+    const std::string prefix = fmt::format("sync.{}.", device);
+    const auto offset_s = find_metric(metrics, {prefix + "offset_s"});
+    if (!offset_s) continue;
+    rows.push_back({device, text(offset_s, 1e3, 3),
+                    text(find_metric(metrics, {prefix + "drift_ppm"}), 1.0, 2),
+                    text(find_metric(metrics, {prefix + "jitter_us"}), 1.0, 1)});
+  }
+  if (const auto seen_ms = find_metric(metrics, {"sync.camera_offset_ms"}))
+    rows.push_back({"camera, by what it sees", text(seen_ms, 1.0, 2), "-", "-"});
+  return rows.size() > 1 ? html_table(rows) : "";
+}
+
+}  // namespace
+
+std::string tracking_section(const RunFolder& run) {
+  const CsvTable& table = run.groups;
+  const Groups groups = groups_of(table);
+  std::vector<std::string> plots;
+  if (!groups.seconds.empty()) {
+    plots = {
+        plot_of(table, groups, {"How well the LiDAR sees the least seen direction", "time (s)", "signal", {}},
+                {{"weakest_signal", "1: nothing but noise", kBlue}}),
+        plot_of(table, groups, {"Directions left to the IMU", "time (s)", "of six", {}},
+                {{"frozen_directions", "not seen", kRed}}),
+        plot_of(table, groups, {"Patches that the picture was aligned with", "time (s)", "patches", {}},
+                {{"visual_patches", "patches", kGreen}}),
+        plot_of(table, groups, {"Brightness of the pictures", "time (s)", "ln of the gain", {}},
+                {{"log_gain", "against the first picture", kOrange}})};
+    std::erase_if(plots, [](const std::string& plot) { return plot.empty(); });
+  }
+  std::string body;
+  if (const std::string states = states_text(groups); !states.empty())
+    body += html_paragraph("States: " + states + ". Coloured stretches: not simply tracking.");
+  if (!plots.empty()) body += html_grid(plots);
+  body += offsets_table(run.robot_metrics);
+  if (body.empty()) body = html_paragraph("The run says nothing about its tracking.");
+  return html_section("What tracking saw", body);
+}
+
+}  // namespace edgesplat::report
