@@ -104,10 +104,14 @@ void add_schedule_options(CLI::App& verb, TrainingOptions& training) {
   add("--grow-from", schedule.grow_from, "Gaussians are added and removed from here on");
   add("--grow-until", schedule.grow_until, "... up to here");
   add("--loss-views", training.views.loss_share, "Extra turns of badly shown pictures, as a share of all");
+  add("--densify-every", training.densify_every, "Iterations from one growth to the next");
+  add("--fill-gaps", training.fill_gaps, "Start with Gaussians where pictures see what no point stands for");
+  add("--exposure", training.learn_exposure, "Learn the gain and offset of each picture");
   add("--rates", training.rate_factor, "Factor of all learning rates");
   add("--depth", training.depth_factor, "Weight of the depth loss, where the scene has depth");
   add("--opacity-cost", training.opacity_factor, "Weight of the mean opacity");
   add("--scale-cost", training.scale_factor, "Weight of the mean scale, in shares of the scene's extent");
+  add("--prune", training.prune_factor, "Weight of the mean switch (differentiable pruning); 0: no switches");
   add("--start-opacity", training.start_opacity, "Opacity of what is made of the points");
 }
 
@@ -136,8 +140,9 @@ void add_train_verb(CLI::App& app, VerbContext& context) {
   verb->add_option("--sh-degree", training.schedule.sh_degree, "Spherical harmonics of the colours")
       ->check(CLI::Range(0, 3))
       ->capture_default_str();
-  verb->add_option("--max-gaussians", training.max_gaussians, "Size of the map at most")
-      ->check(CLI::Range(10, 100'000'000))
+  verb->add_option("--max-gaussians", training.max_gaussians,
+                   "Size of the map at most; 0: by the pictures' size")
+      ->check(CLI::Range(0, 100'000'000))
       ->capture_default_str();
   verb->add_option("--densify", training.densify, "gradient (3DGS) or mcmc")
       ->transform(CLI::CheckedTransformer(

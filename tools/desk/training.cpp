@@ -8,6 +8,7 @@
 #include "kernels/mapping/relocate.hpp"
 #include "tools/desk/picture_stages.hpp"
 #include "tools/desk/scene_start.hpp"
+#include "tools/desk/start_gaps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,12 +33,14 @@ mapping::OptimiserOptions optimiser_options(const TrainingOptions& options) {
   out.depth_factor = options.depth_factor;
   out.opacity_factor = options.opacity_factor;
   out.scale_factor = options.scale_factor / static_cast<float>(kTrainingExtent_m);
+  out.prune.factor = options.prune_factor;
   out.exposure.rate = options.learn_exposure ? 1e-3F : 0.0F;
   return out;
 }
 
-mapping::DensifyOptions densify_options() {
+mapping::DensifyOptions densify_options(std::size_t most_rows) {
   mapping::DensifyOptions out;
+  out.max_rows = most_rows;
   out.split_sigma_m = 0.01F * static_cast<float>(kTrainingExtent_m);
   out.gradient = 1e-4F;
   out.grow_share = 0.3F;
@@ -57,7 +60,7 @@ mapping::RelocateOptions relocate_options(const TrainingOptions& options) {
 class Training {
  public:
   Training(std::span<const ScenePicture* const> pictures, const TrainingOptions& options, double scale,
-           mapping::Optimiser optimiser, mapping::IdAllocator ids, const Clock& clock)
+           mapping::Optimiser optimiser, mapping::IdAllocator ids, const Clock& clock, double start_s)
       : pictures_(pictures),
         options_(options),
         schedule_(options.schedule),
@@ -67,7 +70,10 @@ class Training {
         ids_(ids),
         relocator_(relocate_options(options)),
         order_(pictures.size(), options.views),
-        clock_(clock) {}
+        start_rows_(optimiser_.cloud().size()),
+        clock_(clock) {
+    state_.seconds = start_s;
+  }
 
   Result<TrainedMap> run(const TrainingWatch& watch) {
     double told_s = 0.0;
@@ -142,10 +148,19 @@ class Training {
     return view;
   }
 
+  /// How large the map may be now: it grows by the same factor in equal times.
+  [[nodiscard]] std::size_t most_rows() const {
+    const double way = std::min(1.0, progress() / std::max(1e-9, 0.8 * options_.schedule.grow_until));
+    const double factor = static_cast<double>(options_.max_gaussians) / static_cast<double>(start_rows_);
+    return std::min(options_.max_gaussians, static_cast<std::size_t>(static_cast<double>(start_rows_) *
+                                                                     std::pow(std::max(1.0, factor), way)));
+  }
+
   void densify() {
     if (options_.densify == Densify::kGradient) {
-      (void)mapping::densify(optimiser_, densify_options(), ids_);
+      (void)mapping::densify(optimiser_, densify_options(most_rows()), ids_);
     } else {
+      relocator_.set_growth(1.0F, most_rows());
       (void)relocator_.relocate(optimiser_, ids_);
     }
   }
@@ -175,6 +190,7 @@ class Training {
   mapping::Relocator relocator_;
   mapping::ViewOrder order_;
   int shrink_ = 1;
+  std::size_t start_rows_;
   const Clock& clock_;
   std::vector<float> colour_, depth_m_;
   TrainingProgress state_;
@@ -187,6 +203,29 @@ Status check(std::span<const ScenePicture* const> pictures, const io::PointCloud
                                             " points to start from: give the scene a point cloud "
                                             "(\"ply_file_path\" in its transforms.json)");
   }
+  return {};
+}
+
+/// As TrainingOptions::max_gaussians says.
+std::size_t gaussians_for(std::span<const ScenePicture* const> pictures) {
+  constexpr std::size_t kPixelsEach = 64, kLeast = 5'000, kMost = 300'000;
+  std::size_t pixels = 0;
+  for (const ScenePicture* picture : pictures) pixels += picture->picture.values.size() / 3;
+  return std::clamp(pixels / kPixelsEach, kLeast, kMost);
+}
+
+/// What training starts with: the points, and what they leave out.
+Status add_start(std::span<const ScenePicture* const> pictures, const io::PointCloud& points, double scale,
+                 const TrainingOptions& options, mapping::IdAllocator& ids, mapping::Optimiser& optimiser) {
+  io::PointCloud scaled = points;
+  for (Eigen::Vector3f& point : scaled.points_m) point *= static_cast<float>(scale);
+  const std::size_t most = std::min(options.max_start_points, 3 * options.max_gaussians / 4);
+  const auto start = gaussians_of_points(scaled, {kTrainingExtent_m, most, options.start_opacity}, ids);
+  EDGESPLAT_TRY([[maybe_unused]] const std::size_t added, optimiser.add_rows(start));
+  if (!options.fill_gaps) return {};
+  const GapOptions gaps{scale, optimiser.room() / 2, options.start_opacity};
+  EDGESPLAT_TRY(const auto filled, gaussians_in_gaps(pictures, start, gaps, ids));
+  EDGESPLAT_TRY([[maybe_unused]] const std::size_t more, optimiser.add_rows(filled));
   return {};
 }
 
@@ -210,19 +249,19 @@ Status TrainingOptions::validate() const {
 }
 
 Result<TrainedMap> train_map(std::span<const ScenePicture* const> pictures, const io::PointCloud& points,
-                             const TrainingOptions& options, const Clock& clock, const TrainingWatch& watch) {
-  EDGESPLAT_TRY_STATUS(options.validate());
+                             const TrainingOptions& wanted, const Clock& clock, const TrainingWatch& watch) {
+  EDGESPLAT_TRY_STATUS(wanted.validate());
   EDGESPLAT_TRY_STATUS(check(pictures, points));
+  TrainingOptions options = wanted;
+  if (options.max_gaussians == 0) options.max_gaussians = gaussians_for(pictures);
   const double extent = camera_extent(pictures);
   const double scale = kTrainingExtent_m / extent;
   mapping::IdAllocator ids(kOrigin);
-  io::PointCloud scaled = points;
-  for (Eigen::Vector3f& point : scaled.points_m) point *= static_cast<float>(scale);
-  const auto start =
-      gaussians_of_points(scaled, {kTrainingExtent_m, options.max_start_points, options.start_opacity}, ids);
+  const HostTime begin = clock.now();
   EDGESPLAT_TRY(auto optimiser, mapping::Optimiser::create(optimiser_options(options), clock));
-  EDGESPLAT_TRY([[maybe_unused]] const std::size_t added, optimiser.add_rows(start));
-  return Training(pictures, options, scale, std::move(optimiser), ids, clock).run(watch);
+  EDGESPLAT_TRY_STATUS(add_start(pictures, points, scale, options, ids, optimiser));
+  const double start_s = to_seconds(clock.now() - begin);
+  return Training(pictures, options, scale, std::move(optimiser), ids, clock, start_s).run(watch);
 }
 
 }  // namespace edgesplat::desk

@@ -27,18 +27,22 @@ enum class Densify {
 struct TrainingOptions {
   std::uint64_t iterations = 0;  ///< pictures looked at; 0: only `seconds` ends it
   double seconds = 0.0;          ///< of training; 0: only `iterations` ends it
-  std::size_t max_gaussians = 300'000;
+  /// The map grows to this, by the same factor in equal times, until 0.8 of schedule.grow_until. 0: one for
+  /// every 64 pixels of the pictures, and no more than 300 000
+  std::size_t max_gaussians = 0;
   std::size_t max_start_points = 100'000;
   Densify densify = Densify::kGradient;
   std::uint64_t densify_every = 100;  ///< iterations
-  /// Half size first: +0.6 dB and +0.05 dB after 7 s (docs/benchmarks.md).
-  mapping::ScheduleOptions schedule{.coarse_until = 0.25};
+  /// What is best on simulated and real scenes of this size at 7 to 60 s (docs/benchmarks.md).
+  mapping::ScheduleOptions schedule{.coarse_until = 0.25, .cool_from = 0.5};
   mapping::ViewOrderOptions views;
-  float rate_factor = 1.0F;     ///< of all learning rates; short trainings want more, 0.1..10
+  float rate_factor = 2.0F;     ///< of all learning rates; short trainings want more, 0.1..10
   float depth_factor = 0.0F;    ///< of the depth loss, where pictures have depth, 0 (off)..1
   float opacity_factor = 0.0F;  ///< of the mean opacity of what a picture shows, 0..0.1
   float scale_factor = 0.0F;    ///< of the mean scale, in shares of the scene's extent, 0..1
+  float prune_factor = 0.0F;    ///< of the mean switch of differentiable pruning, 0 (off)..1
   float start_opacity = 0.1F;   ///< of the Gaussians made of points, 0.01..0.9
+  bool fill_gaps = true;        ///< Gaussians where pictures see what no point stands for (start_gaps.hpp)
   bool learn_exposure = false;  ///< gain and offset of each training picture
 
   /// kInvalidConfig for a training without an end and values out of range.
