@@ -2,24 +2,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/desk/odometry.hpp"
 
+#include "common/geometry/rigid_transform.hpp"
 #include "robot/drivers/replay/replay_source.hpp"
 #include "robot/sync/group_builder.hpp"
 #include "robot/tracking/tracker.hpp"
 #include "tools/desk/imu_csv.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <string>
+#include <system_error>
 #include <utility>
 
 namespace edgesplat::desk {
 namespace {
 
+/// KITTI's HDL-64E turns ten times a second.
+constexpr nanoseconds kHalfTurn = std::chrono::milliseconds(50);
+
 /// Feeds groups to the tracker and keeps what comes out.
 class OdometryLoop {
  public:
-  OdometryLoop(tracking::Tracker& tracker, ScanTiming timing, const Clock& clock)
-      : tracker_(tracker), timing_(timing), clock_(clock) {}
+  OdometryLoop(tracking::Tracker& tracker, const OdometryJob& job, const Clock& clock, const Clock& processor)
+      : tracker_(tracker),
+        timing_(job.timing),
+        with_imu_(job.imu.has_value()),
+        clock_(clock),
+        processor_(processor) {}
 
   Status take(std::vector<sync::MeasureGroup> groups) {
     for (sync::MeasureGroup& group : groups) EDGESPLAT_TRY_STATUS(track(group));
@@ -37,18 +48,42 @@ class OdometryLoop {
   Status track(sync::MeasureGroup& group) {
     if (timing_ == ScanTiming::kAzimuth && !group.has_point_times) set_azimuth_times(group);
     const HostTime begin = clock_.now();
+    const HostTime begin_cpu = processor_.now();
     EDGESPLAT_TRY(const tracking::TrackedGroup tracked, tracker_.track(group));
+    run_.track_cpu_ms.push_back(to_seconds(processor_.now() - begin_cpu) * 1e3);
     run_.track_ms.push_back(to_seconds(clock_.now() - begin) * 1e3);
     run_.health.push_back({tracked.stamp, tracked.health});
-    if (tracked.health.state != tracking::TrackingState::kInitialising) {
+    if (timing_ == ScanTiming::kAzimuth) {
+      add_pose_of_turn(tracked);
+    } else if (tracked.health.state != tracking::TrackingState::kInitialising) {
       run_.poses.push_back({tracked.stamp, tracked.odom_from_body});
     }
     return {};
   }
 
+  /// A turn's stamp is its middle, and tracking tells the pose at its end. Without an IMU the first turn's
+  /// middle is where odom begins.
+  void add_pose_of_turn(const tracking::TrackedGroup& tracked) {
+    const HostTime stamp = tracked.stamp - kHalfTurn;
+    if (tracked.health.state == tracking::TrackingState::kInitialising) {
+      if (!with_imu_) run_.poses.push_back({stamp, tracked.odom_from_body});
+      before_ = {stamp, tracked.odom_from_body};
+      return;
+    }
+    if (before_ && before_->stamp < stamp) {
+      const double share = to_seconds(stamp - before_->stamp) / to_seconds(tracked.stamp - before_->stamp);
+      run_.poses.push_back(
+          {stamp, geometry::interpolate(before_->world_from_body, tracked.odom_from_body, share)});
+    }
+    before_ = {tracked.stamp, tracked.odom_from_body};
+  }
+
   tracking::Tracker& tracker_;
   ScanTiming timing_;
+  bool with_imu_;
+  std::optional<io::StampedPose> before_;  ///< the last pose known, of turns
   const Clock& clock_;
+  const Clock& processor_;
   OdometryRun run_;
 };
 
@@ -75,6 +110,21 @@ tracking::TrackingConfig default_tracking(const std::filesystem::path& lidar,
   return config;
 }
 
+ScanTiming timing_of(const std::filesystem::path& lidar) {
+  if (!replay::ReplaySource::is_scan_folder(lidar)) return ScanTiming::kInstant;
+  std::error_code error;
+  for (const auto& place : {lidar / "velodyne", lidar}) {
+    for (std::filesystem::directory_iterator at(place, error), end; !error && at != end;
+         at.increment(error)) {
+      if (at->path().extension() != ".bin") continue;
+      const std::string stem = at->path().stem().string();
+      const bool number = std::ranges::all_of(stem, [](char c) { return c >= '0' && c <= '9'; });
+      return number && stem.size() == 10 ? ScanTiming::kAzimuth : ScanTiming::kInstant;
+    }
+  }
+  return ScanTiming::kInstant;
+}
+
 void set_azimuth_times(sync::MeasureGroup& group) {
   const auto turn_ns = static_cast<double>((group.end - group.begin).count());
   for (sync::GroupPoint& point : group.points) {
@@ -85,7 +135,9 @@ void set_azimuth_times(sync::MeasureGroup& group) {
   group.has_point_times = true;
 }
 
-Result<OdometryRun> run_odometry(const OdometryJob& job, const Clock& clock) {
+Result<OdometryRun> run_odometry(const OdometryJob& asked, const Clock& clock, const Clock& processor) {
+  OdometryJob job = asked;
+  if (job.timing == ScanTiming::kAuto) job.timing = timing_of(job.lidar);
   EDGESPLAT_TRY(replay::ReplaySource source, replay::ReplaySource::open(job.lidar, job.rig));
   const sensor::Rig rig = choose_rig(job, source.rig());
   std::vector<sensor::ImuSample> imu;
@@ -96,11 +148,16 @@ Result<OdometryRun> run_odometry(const OdometryJob& job, const Clock& clock) {
   config.visual = config.visual && job.mode == OdometryMode::kLidarInertialVisual;
   EDGESPLAT_TRY(const auto tracker, tracking::Tracker::create(config, rig));
   sync::GroupBuilder builder({}, rig);
-  OdometryLoop loop(*tracker, job.timing, clock);
+  OdometryLoop loop(*tracker, job, clock, processor);
   std::span<const sensor::ImuSample> waiting = imu;
   while (true) {
     EDGESPLAT_TRY(auto measurement, source.next());
     if (!measurement) break;
+    if (auto* scan = std::get_if<sensor::LidarScan>(&*measurement);
+        scan != nullptr && job.timing == ScanTiming::kAzimuth) {
+      scan->stamp += kHalfTurn;
+      scan->arrival += kHalfTurn;
+    }
     for (; !waiting.empty() && waiting.front().arrival <= sensor::arrival_of(*measurement);
          waiting = waiting.subspan(1)) {
       EDGESPLAT_TRY_STATUS(loop.take(builder.push(waiting.front())));

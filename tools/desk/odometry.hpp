@@ -20,9 +20,10 @@ namespace edgesplat::desk {
 
 /// When the rays of a whole scan were fired.
 enum class ScanTiming : std::uint8_t {
+  kAuto,     ///< as a folder's layout says: see timing_of()
   kInstant,  ///< all at the scan's stamp: scans whose motion was already removed, or a slow robot
-  kAzimuth,  ///< in one turn that ends at the stamp, clockwise seen from above, from behind to behind
-             ///< (HDL-64E)
+  kAzimuth,  ///< in one turn of 0.1 s around the stamp, clockwise seen from above, from behind to behind: an
+             ///< HDL-64E on KITTI's car, whose stamps say when it looks forward
 };
 
 /// Which sensors the pose comes from.
@@ -37,13 +38,14 @@ struct OdometryJob {
   std::optional<std::filesystem::path> imu;  ///< EuRoC's CSV, on the scans' time base
   std::optional<replay::BagRig> rig;         ///< instead of the recording's own; needed for one of ROS
   tracking::TrackingConfig tracking;
-  ScanTiming timing = ScanTiming::kInstant;
+  ScanTiming timing = ScanTiming::kAuto;
   OdometryMode mode = OdometryMode::kLidarInertialVisual;
 };
 
 struct OdometryRun {
   std::vector<io::StampedPose> poses;  ///< odom_from_body, one a group once the first pose is known
   std::vector<double> track_ms;        ///< time in Tracker::track, one a group
+  std::vector<double> track_cpu_ms;    ///< processor time there
   struct GroupHealth {
     HostTime stamp{};
     tracking::TrackingHealth health;
@@ -59,9 +61,15 @@ struct OdometryRun {
 [[nodiscard]] tracking::TrackingConfig default_tracking(const std::filesystem::path& lidar,
                                                         const std::optional<replay::BagRig>& rig = {});
 
-/// Tracks a whole recording, as fast as it goes. `clock` times the groups. Errors of reading, and
-/// kInvalidArgument where nothing in it could be tracked.
-[[nodiscard]] Result<OdometryRun> run_odometry(const OdometryJob& job, const Clock& clock);
+/// Tracks a whole recording, as fast as it goes. The clocks time the groups: `processor` shows what the
+/// process spent. Errors of reading, and kInvalidArgument where nothing in it could be tracked.
+[[nodiscard]] Result<OdometryRun> run_odometry(const OdometryJob& job, const Clock& clock,
+                                               const Clock& processor);
+
+/// kAzimuth for a folder of KITTI's raw scans, which are stored as they were fired: their names have ten
+/// digits. Everything else counts as kInstant: the scans of KITTI's odometry benchmark (six digits) were
+/// turned into those of one moment, and recordings bring the times of their points.
+[[nodiscard]] ScanTiming timing_of(const std::filesystem::path& lidar);
 
 /// Gives every point of a group the time that its azimuth tells for kAzimuth.
 void set_azimuth_times(sync::MeasureGroup& group);

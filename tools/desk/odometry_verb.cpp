@@ -6,6 +6,7 @@
 #include "robot/tracking/health_csv.hpp"
 #include "tools/accuracy/evaluation_text.hpp"
 #include "tools/desk/odometry.hpp"
+#include "tools/desk/processor_clock.hpp"
 #include "tools/desk/verbs.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ struct OdometryOptions {
   std::string groups;
   std::vector<std::string> settings;
   OdometryMode mode = OdometryMode::kLidarInertialVisual;
-  ScanTiming timing = ScanTiming::kInstant;
+  ScanTiming timing = ScanTiming::kAuto;
   bool json = false;
 };
 
@@ -51,13 +52,20 @@ Result<OdometryJob> job_of(const OdometryOptions& options) {
   return job;
 }
 
-nlohmann::json summary_of(const OdometryRun& run) {
-  std::vector<double> sorted = run.track_ms;
-  std::sort(sorted.begin(), sorted.end());
+nlohmann::json quantiles(std::vector<double> values) {
+  if (values.empty()) values.push_back(0.0);
+  std::sort(values.begin(), values.end());
   const auto quantile = [&](double share) {
-    return sorted.empty() ? 0.0
-                          : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
   };
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  return {{"mean", sum / static_cast<double>(values.size())},
+          {"p50", quantile(0.5)},
+          {"p95", quantile(0.95)},
+          {"max", quantile(1.0)}};
+}
+
+nlohmann::json summary_of(const OdometryRun& run) {
   double path_m = 0.0;
   for (std::size_t i = 1; i < run.poses.size(); ++i) {
     path_m +=
@@ -68,7 +76,8 @@ nlohmann::json summary_of(const OdometryRun& run) {
           {"poses", run.poses.size()},
           {"coasted_groups", run.coasted_groups},
           {"path_m", path_m},
-          {"track_ms", {{"p50", quantile(0.5)}, {"p95", quantile(0.95)}, {"max", quantile(1.0)}}},
+          {"track_ms", quantiles(run.track_ms)},
+          {"track_cpu_ms", quantiles(run.track_cpu_ms)},
           {"map_bytes", run.map_bytes},
           {"cpu_s", usage.cpu_s},
           {"peak_rss_bytes", usage.peak_rss_bytes}};
@@ -98,7 +107,7 @@ Status write_groups(const std::string& path, const OdometryRun& run) {
 Status run_verb(const OdometryOptions& options) {
   EDGESPLAT_TRY(const OdometryJob job, job_of(options));
   const SteadyClock clock;
-  EDGESPLAT_TRY(const OdometryRun run, run_odometry(job, clock));
+  EDGESPLAT_TRY(const OdometryRun run, run_odometry(job, clock, ProcessorClock(1)));
   EDGESPLAT_TRY_STATUS(io::write_tum(options.out, run.poses));
   if (!options.groups.empty()) EDGESPLAT_TRY_STATUS(write_groups(options.groups, run));
   nlohmann::json summary = summary_of(run);
@@ -136,9 +145,14 @@ void add_odometry_verb(CLI::App& app, VerbContext& context) {
   verb->add_option("--rig", options->rig,
                    "rig.toml with the LiDAR's noise and place, instead of the recording's");
   verb->add_option("--out", options->out, "Trajectory to write, TUM format")->required();
-  verb->add_option("--timing", options->timing, "When a scan's rays were fired: instant or azimuth (HDL-64E)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, ScanTiming>{
-          {"instant", ScanTiming::kInstant}, {"azimuth", ScanTiming::kAzimuth}}));
+  verb->add_option(
+          "--timing", options->timing,
+          "When a scan's rays were fired: auto (azimuth for KITTI's raw scans), instant, or azimuth: in one "
+          "turn around its stamp (HDL-64E)")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, ScanTiming>{{"auto", ScanTiming::kAuto},
+                                                                    {"instant", ScanTiming::kInstant},
+                                                                    {"azimuth", ScanTiming::kAzimuth}}));
   verb->add_option("--mode", options->mode,
                    "Which sensors the pose comes from: livo (LiDAR, IMU and camera, default), lio, lo")
       ->transform(CLI::CheckedTransformer(

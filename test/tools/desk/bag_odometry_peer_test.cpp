@@ -118,7 +118,7 @@ class BagOdometryPeer : public ::testing::Test {
     job.mode = mode;
     if (path != recording_) job.rig = rig_;
     const SteadyClock clock;
-    auto run = run_odometry(job, clock);
+    auto run = run_odometry(job, clock, clock);
     EXPECT_TRUE(run) << path << ": " << run.error().context;
     return run ? *std::move(run) : OdometryRun();
   }
