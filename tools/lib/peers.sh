@@ -1,15 +1,18 @@
 # SPDX-FileCopyrightText: 2026 The edgesplat authors
 # SPDX-License-Identifier: Apache-2.0
-# Other people's implementations to test against: a Python environment in .deps/peers, Node packages in .deps/peers-node.
+# Other people's implementations to test against: a Python environment in .deps/peers, Node packages in .deps/peers-node. And their
+# odometry to measure ours by, in .deps/odometry-peers: only tools/bench --peers needs it.
 
 peers_requirements=$root/tools/lib/peers-requirements.txt
 peers_stamp=$deps/peers/requirements.txt  # what the environment was made from
+odometry_peers_requirements=$root/tools/lib/odometry-peers-requirements.txt
 
-make_peers() {
-  rm -rf "$deps/peers"
-  python3 -m venv "$deps/peers" || return 1
-  "$deps/peers/bin/pip" install --no-cache-dir --disable-pip-version-check --no-deps -r "$peers_requirements" || return 1
-  cp "$peers_requirements" "$peers_stamp"
+# make_python REQUIREMENTS FOLDER: a Python environment with exactly these packages; it keeps the list it was made from.
+make_python() {
+  rm -rf "$2"
+  python3 -m venv "$2" || return 1
+  "$2/bin/pip" install --no-cache-dir --disable-pip-version-check --no-deps -r "$1" || return 1
+  cp "$1" "$2/requirements.txt"
 }
 
 peers_packages=$root/tools/lib/peers-npm.txt
@@ -37,8 +40,14 @@ install_peers() {
   local failed=0
   if ! cmp -s "$peers_requirements" "$peers_stamp"; then
     run_step "install Python peers" "They come from PyPI: a network is needed. Tests labelled peers skip without them." \
-      pip_filter make_peers || failed=1
+      pip_filter make_python "$peers_requirements" "$deps/peers" || failed=1
   fi
   install_node_peers || failed=1
   return "$failed"
+}
+
+install_odometry_peers() {
+  cmp -s "$odometry_peers_requirements" "$deps/odometry-peers/requirements.txt" && return 0
+  run_step "install odometry peers" "They come from PyPI: a network is needed." \
+    pip_filter make_python "$odometry_peers_requirements" "$deps/odometry-peers"
 }
