@@ -3,6 +3,7 @@
 #include "kernels/image/gray_pyramid.hpp"
 
 #include "common/base/check.hpp"
+#include "kernels/image/gray_rows.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,39 +19,22 @@ void resize(sensor::ImageGray8& image, int width_px, int height_px) {
 
 void to_gray(const sensor::ImageRgb8& picture, sensor::ImageGray8& gray) {
   resize(gray, picture.width_px, picture.height_px);
-  const std::uint8_t* rgb = picture.values.data();
-  for (std::uint8_t& value : gray.values) {
-    value = static_cast<std::uint8_t>((77U * rgb[0] + 150U * rgb[1] + 29U * rgb[2] + 128U) >> 8U);
-    rgb += 3;
-  }
+  gray_row(picture.values.data(), gray.values.data(), gray.values.size());
 }
 
 /// to_gray() and halve() in one pass.
 void to_half_gray(const sensor::ImageRgb8& picture, sensor::ImageGray8& gray) {
   resize(gray, picture.width_px / 2, picture.height_px / 2);
-  for (int y = 0; y < gray.height_px; ++y) {
-    const std::uint8_t* a = picture.pixel(0, 2 * y);
-    const std::uint8_t* b = picture.pixel(0, 2 * y + 1);
-    std::uint8_t* out = gray.pixel(0, y);
-    for (int x = 0; x < gray.width_px; ++x, a += 6, b += 6) {
-      const int red = a[0] + a[3] + b[0] + b[3];
-      const int green = a[1] + a[4] + b[1] + b[4];
-      const int blue = a[2] + a[5] + b[2] + b[5];
-      out[x] = static_cast<std::uint8_t>((77 * red + 150 * green + 29 * blue + 512) >> 10);
-    }
-  }
+  const auto count = static_cast<std::size_t>(gray.width_px);
+  for (int y = 0; y < gray.height_px; ++y)
+    half_gray_row(picture.pixel(0, 2 * y), picture.pixel(0, 2 * y + 1), gray.pixel(0, y), count);
 }
 
 void halve(const sensor::ImageGray8& image, sensor::ImageGray8& half) {
   resize(half, image.width_px / 2, image.height_px / 2);
-  for (int y = 0; y < half.height_px; ++y) {
-    const std::uint8_t* a = image.pixel(0, 2 * y);
-    const std::uint8_t* b = image.pixel(0, 2 * y + 1);
-    std::uint8_t* out = half.pixel(0, y);
-    for (std::ptrdiff_t x = 0; x < half.width_px; ++x) {
-      out[x] = static_cast<std::uint8_t>((a[2 * x] + a[2 * x + 1] + b[2 * x] + b[2 * x + 1] + 2) >> 2);
-    }
-  }
+  const auto count = static_cast<std::size_t>(half.width_px);
+  for (int y = 0; y < half.height_px; ++y)
+    half_row(image.pixel(0, 2 * y), image.pixel(0, 2 * y + 1), half.pixel(0, y), count);
 }
 
 }  // namespace
