@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <string>
 
 namespace edgesplat::desk {
@@ -20,6 +21,7 @@ namespace {
 struct SimulateVerbOptions {
   simulate::SimulateOptions simulation;
   std::string camera = "320x256";
+  double spin_deg_per_s = 0.0;
   std::string clean_poses;
   std::string clean_folder;
   bool progress = false;
@@ -89,6 +91,7 @@ void print_report(const simulate::SimulateReport& report, const SimulateVerbOpti
 
 Status run_simulate(SimulateVerbOptions options) {
   EDGESPLAT_TRY_STATUS(parse_camera(options.camera, options.simulation));
+  options.simulation.spin_radps = options.spin_deg_per_s * std::numbers::pi / 180.0;
   if (options.clean_poses.empty() != options.clean_folder.empty()) {
     return fail(Errc::kInvalidConfig, "--clean-views and --clean-out go together");
   }
@@ -112,11 +115,13 @@ Status run_simulate(SimulateVerbOptions options) {
 void add_simulate_verb(CLI::App& app, VerbContext& context) {
   using simulate::ClockMode;
   using simulate::LidarKind;
+  using simulate::Lighting;
   auto* verb =
       app.add_subcommand("simulate", "Simulate a robot in a world and write what its sensors measure");
   auto options = std::make_shared<SimulateVerbOptions>();
   auto& simulation = options->simulation;
-  verb->add_option("--world", simulation.world.name, "corridor, street, tunnel or square")
+  verb->add_option("--world", simulation.world.name,
+                   "corridor, bare (without texture), loop (300 m), stairs, street, tunnel or square")
       ->capture_default_str();
   verb->add_option("--seconds", simulation.seconds, "Length of the recording")->capture_default_str();
   verb->add_option("--pedestrians", simulation.world.pedestrians, "Walking people, 0..100")
@@ -137,6 +142,12 @@ void add_simulate_verb(CLI::App& app, VerbContext& context) {
   verb->add_option("--camera-stamp-delay", simulation.camera_stamp_delay_s,
                    "The camera's stamps come this many s before mid-exposure");
   verb->add_option("--body-motion", simulation.body_motion, "Scale of sway and bumps, 0 = on rails");
+  verb->add_option("--spin", options->spin_deg_per_s,
+                   "It turns on itself while it drives, deg/s, one way and the other");
+  verb->add_option("--lighting", simulation.lighting,
+                   "steady, or failing: the exposure in leaps, the light out for 3 s in every 10")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Lighting>{{"steady", Lighting::kSteady}, {"failing", Lighting::kFailing}}));
   verb->add_option("--clean-views", options->clean_poses,
                    "TUM file of body poses to take clean pictures from");
   verb->add_option("--clean-out", options->clean_folder, "Folder for the clean pictures");

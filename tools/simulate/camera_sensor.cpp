@@ -38,19 +38,27 @@ float cheap_normal(std::uint64_t bits) {
   return (part(0) + part(1) + part(2) + part(3) - kMean) / kDeviation;
 }
 
+double factor_at(const std::vector<CameraSensorConfig::ExposureStep>& steps, double time_s) {
+  double factor = 1.0;
+  for (const auto& step : steps)
+    if (step.from_s <= time_s) factor = step.factor;
+  return factor;
+}
+
 }  // namespace
 
 double CameraSensor::exposure_s(double time_s) const {
-  double factor = 1.0;
-  for (const auto& step : config_.exposure_steps)
-    if (step.from_s <= time_s) factor = step.factor;
-  return config_.exposure_s * factor;
+  return config_.exposure_s * factor_at(config_.exposure_steps, time_s);
+}
+
+float CameraSensor::gain(double time_s) const {
+  return static_cast<float>(exposure_s(time_s) / config_.exposure_s * factor_at(config_.light_steps, time_s));
 }
 
 sensor::ImageRgb8 CameraSensor::expose(const sensor::ImageRgbF32& radiance, std::uint64_t frame,
                                        double time_s) const {
   sensor::ImageRgb8 out(radiance.width_px, radiance.height_px);
-  const auto gain = static_cast<float>(exposure_s(time_s) / config_.exposure_s);
+  const float gain = this->gain(time_s);
   const auto well = static_cast<float>(config_.full_well_electrons);
   const auto read2 = static_cast<float>(config_.read_noise_electrons * config_.read_noise_electrons);
   const double cx = (radiance.width_px - 1) / 2.0, cy = (radiance.height_px - 1) / 2.0;
@@ -77,7 +85,7 @@ sensor::ImageRgb8 CameraSensor::expose(const sensor::ImageRgbF32& radiance, std:
 
 sensor::ImageRgb8 CameraSensor::expose_ideal(const sensor::ImageRgbF32& radiance, double time_s) const {
   sensor::ImageRgb8 out(radiance.width_px, radiance.height_px);
-  const auto gain = static_cast<float>(exposure_s(time_s) / config_.exposure_s);
+  const float gain = this->gain(time_s);
   std::transform(radiance.values.begin(), radiance.values.end(), out.values.begin(),
                  [gain](float v) { return to_srgb(v * gain); });
   return out;

@@ -23,6 +23,7 @@ struct CameraSensorConfig {
     double factor = 1.0;
   };
   std::vector<ExposureStep> exposure_steps;
+  std::vector<ExposureStep> light_steps;  ///< the same of the light, which the exposure told knows nothing of
 };
 
 /// Turns linear radiance into the picture that a camera delivers: exposure, vignetting, shot and read noise,
@@ -40,6 +41,9 @@ class CameraSensor {
   [[nodiscard]] double exposure_s(double time_s) const;
 
  private:
+  /// What a radiance becomes, as a factor.
+  [[nodiscard]] float gain(double time_s) const;
+
   CameraSensorConfig config_;
 };
 

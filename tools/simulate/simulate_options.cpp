@@ -35,7 +35,7 @@ void describe_simulation(config::ConfigReader& reader, SimulateOptions& options)
   using config::Range;
   reader.table("world", "what is simulated", [&] {
     WorldConfig& world = options.world;
-    reader.field("name", world.name, "corridor, street, tunnel or square");
+    reader.field("name", world.name, "corridor, bare, loop, stairs, street, tunnel or square");
     reader.field("pedestrians", world.pedestrians, Range{0, 100}, "walking people");
     reader.field("cars", world.cars, Range{0, 50}, "moving cars");
     reader.field("seed", world.seed, Range<std::uint64_t>{0, ~0ULL}, "decides every texture, gait and noise");
@@ -47,6 +47,10 @@ void describe_simulation(config::ConfigReader& reader, SimulateOptions& options)
     reader.choice("clock", options.clock, {{"free", ClockMode::kFree}, {"ptp", ClockMode::kPtp}},
                   "of the devices");
     reader.field("body_motion", options.body_motion, Range{0.0, 10.0}, "scale of sway and bumps");
+    reader.field("spin_radps", options.spin_radps, Range{0.0, 6.0}, "turning on itself while driving");
+    reader.choice("lighting", options.lighting,
+                  {{"steady", Lighting::kSteady}, {"failing", Lighting::kFailing}},
+                  "of the camera's pictures");
   });
 }
 
@@ -68,6 +72,9 @@ Status validate(const SimulateOptions& options) {
   if (!(options.body_motion >= 0.0 && options.body_motion <= 10.0)) {
     return refuse("--body-motion must be in [0, 10]");
   }
+  if (!(options.spin_radps >= 0.0 && options.spin_radps <= 6.0)) {
+    return refuse("--spin must be in [0, 343] deg/s");
+  }
   if (options.clean_views && no_camera) return refuse("--clean-views needs a camera");
   return {};
 }
@@ -85,6 +92,16 @@ sensor::Rig simulated_rig(const SimulateOptions& options) {
 CameraSensorConfig simulated_exposure(const SimulateOptions& options) {
   CameraSensorConfig config;
   config.seed = options.world.seed;
+  if (options.lighting == Lighting::kFailing) {
+    constexpr double kFactors[] = {1.0, 0.35, 2.1, 0.6, 1.4};
+    for (std::size_t k = 0; 2.0 * static_cast<double>(k) < options.seconds; ++k)
+      config.exposure_steps.push_back({2.0 * static_cast<double>(k), kFactors[k % std::size(kFactors)]});
+    for (double from_s = 7.0; from_s < options.seconds; from_s += 10.0) {
+      config.light_steps.push_back({from_s, 0.0005});
+      config.light_steps.push_back({from_s + 3.0, 1.0});
+    }
+    return config;
+  }
   constexpr double kFactors[] = {1.0, 0.8, 1.15, 0.9};
   for (std::size_t k = 0; 5.0 * static_cast<double>(k) < options.seconds; ++k) {
     config.exposure_steps.push_back({5.0 * static_cast<double>(k), kFactors[k % std::size(kFactors)]});

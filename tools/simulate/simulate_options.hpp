@@ -9,6 +9,7 @@
 #include "tools/simulate/lidar_pattern.hpp"
 #include "tools/simulate/world.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -22,6 +23,11 @@ struct CleanViews {
   std::filesystem::path folder;  ///< NNNNNN.png in the order of the file
 };
 
+enum class Lighting : std::uint8_t {
+  kSteady,   ///< the exposure changes a little every 5 s
+  kFailing,  ///< it changes by factors of up to six every 2 s, and the light goes out for 3 s in every 10
+};
+
 struct SimulateOptions {
   WorldConfig world;      ///< its seed decides every noise too
   double seconds = 20.0;  ///< (0, 36000]
@@ -31,7 +37,9 @@ struct SimulateOptions {
   int camera_height_px = 256;
   double camera_stamp_delay_s = 0.0;  ///< the camera's stamps come this much before mid-exposure, [-0.1, 0.1]
   double body_motion = 1.0;           ///< scale of sway and bumps, [0, 10]
-  std::filesystem::path out;          ///< the recording
+  double spin_radps = 0.0;            ///< the robot turns on itself while it drives, [0, 6]
+  Lighting lighting = Lighting::kSteady;
+  std::filesystem::path out;  ///< the recording
   std::optional<CleanViews> clean_views;
 };
 

@@ -62,6 +62,7 @@ Result<SimulateReport> simulate(const SimulateOptions& options, const SimulatePr
   TrajectoryConfig drive;
   drive.duration_s = options.seconds;
   drive.body_motion = options.body_motion;
+  drive.spin_radps = options.spin_radps;
   drive.seed = options.world.seed;
   EDGESPLAT_TRY(const Trajectory trajectory, Trajectory::create(world->path(), drive));
   EDGESPLAT_TRY(RecordingWriter recording, RecordingWriter::create(options.out));

@@ -6,6 +6,7 @@
 #include "tools/simulate/route.hpp"
 #include "tools/simulate/speed_profile.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -69,10 +70,22 @@ class BodyMotion {
   Swing sway_m_{}, heave_m_{}, yaw_rad_{}, pitch_rad_{}, roll_rad_{};
 };
 
+/// Rate of turning on itself, as a share: some way round to the left, a short rest, as far to the right.
+double spin_share(double time_s) {
+  constexpr double kRamp_s = 0.6, kTurning_s = 4.0, kRest_s = 0.6, kHalf_s = kTurning_s + kRest_s;
+  if (time_s <= 0.0) return 0.0;
+  const double in_period_s = std::fmod(time_s, 2.0 * kHalf_s);
+  const double at_s = std::fmod(in_period_s, kHalf_s);
+  const double edge = std::clamp(std::min(at_s, kTurning_s - at_s) / kRamp_s, 0.0, 1.0);
+  const double smooth = 0.5 - 0.5 * std::cos(std::numbers::pi * edge);
+  return in_period_s < kHalf_s ? smooth : -smooth;
+}
+
 Status check_config(const TrajectoryConfig& config) {
   const bool good = config.duration_s > 0.0 && config.duration_s <= 36000.0 && config.standstill_s >= 0.0 &&
                     config.acceleration_mps2 > 0.0 && config.turn_rate_limit_radps > 0.0 &&
-                    config.body_motion >= 0.0 && config.body_motion <= 10.0;
+                    config.body_motion >= 0.0 && config.body_motion <= 10.0 && config.spin_radps >= 0.0 &&
+                    config.spin_radps <= 6.0;
   if (!good) return fail(Errc::kInvalidConfig, "trajectory: a duration, limit or scale is out of range");
   return {};
 }
@@ -93,7 +106,7 @@ Result<Trajectory> Trajectory::create(const World::Path& path, const TrajectoryC
 
   std::vector<BodyCoordinates> controls;
   controls.reserve(progress.size());
-  double yaw = 0.0;
+  double yaw = 0.0, spun = 0.0;
   for (std::size_t j = 0; j < progress.size(); ++j) {
     const double time_s = BodySpline::control_time_s(j, kKnot_s);
     const double gate = config.body_motion * std::min(1.0, progress[j].speed_mps / path.speed_mps);
@@ -105,7 +118,8 @@ Result<Trajectory> Trajectory::create(const World::Path& path, const TrajectoryC
     BodyCoordinates control;
     control.head<3>() = route.position_m(progress[j].distance_m) + swing[0] * left;
     control[2] += swing[1];
-    control[3] = yaw + swing[2];
+    control[3] = yaw + swing[2] + spun;
+    spun += config.spin_radps * spin_share(time_s + 0.5 * kKnot_s - config.standstill_s) * kKnot_s;
     control[4] = -std::asin(std::clamp(ahead.z(), -1.0, 1.0)) + swing[3];
     control[5] = swing[4];
     controls.push_back(control);

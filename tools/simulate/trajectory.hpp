@@ -19,6 +19,7 @@ struct TrajectoryConfig {
   double acceleration_mps2 = 0.8;      ///< of starting and braking, > 0
   double turn_rate_limit_radps = 0.8;  ///< the robot slows down in turns to keep this, > 0
   double body_motion = 1.0;            ///< scale of sway and bumps, 0 = a rail
+  double spin_radps = 0.0;             ///< turns on itself while it drives, one way and the other, [0, 6]
   std::uint64_t seed = 1;
 };
 

@@ -16,7 +16,7 @@
 namespace edgesplat::simulate {
 
 struct WorldConfig {
-  std::string name = "corridor";  ///< corridor, street, tunnel, square
+  std::string name = "corridor";  ///< corridor, bare, loop, stairs, street, tunnel, square
   int pedestrians = 0;            ///< 0..100
   int cars = 0;                   ///< moving cars (street only), 0..50
   std::uint64_t seed = 1;         ///< decides every texture, pose and gait

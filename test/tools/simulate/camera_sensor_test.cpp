@@ -35,6 +35,15 @@ TEST(CameraSensor, WithoutFaultsIsIdeal) {
   EXPECT_EQ(sensor.expose(even(0.4F), 3, 0.0).values, sensor.expose_ideal(even(0.4F), 0.0).values);
 }
 
+TEST(CameraSensor, LightThatGoesOutIsNotInTheExposureThatIsTold) {
+  CameraSensorConfig config = quiet();
+  config.light_steps = {{1.0, 0.0}, {2.0, 1.0}};
+  const CameraSensor sensor(config);
+  EXPECT_EQ(sensor.expose(even(0.4F), 0, 1.5).values[0], 0);
+  EXPECT_EQ(sensor.expose(even(0.4F), 0, 2.5).values, sensor.expose(even(0.4F), 0, 0.5).values);
+  EXPECT_EQ(sensor.exposure_s(1.5), sensor.exposure_s(0.5));
+}
+
 TEST(CameraSensor, NoiseHasTheStatedDeviation) {
   CameraSensorConfig config = quiet();
   config.full_well_electrons = 5000;

@@ -44,6 +44,26 @@ TEST(Trajectory, DrivesAtThePathsSpeedAndTurnsBelowTheLimit) {
   EXPECT_LT(fastest_turn_radps, 1.0);
 }
 
+TEST(Trajectory, SpinsBothWaysAtTheRateAsked) {
+  TrajectoryConfig config;
+  config.duration_s = 20.0;
+  config.spin_radps = 3.1416;
+  const auto trajectory = Trajectory::create(BoxWorld().path(), config);
+  ASSERT_TRUE(trajectory.has_value());
+  double left = 0.0, right = 0.0, turned_rad = 0.0;
+  for (double t = 0.0; t < 20.0; t += 0.01) {
+    const BodyState state = trajectory->at(t);
+    left = std::max(left, state.angular_velocity_radps.z());
+    right = std::min(right, state.angular_velocity_radps.z());
+    turned_rad += std::abs(state.angular_velocity_radps.z()) * 0.01;
+    EXPECT_LT(state.velocity_mps.norm(), 1.35);
+  }
+  EXPECT_NEAR(left, 3.1416, 0.9);  // the road turns too
+  EXPECT_NEAR(right, -3.1416, 0.9);
+  EXPECT_GT(turned_rad, 6.0 * 2.0 * 3.1416);
+  EXPECT_LT(trajectory->at(1.4).angular_velocity_radps.norm(), 1e-6);
+}
+
 TEST(Trajectory, HeadsAlongItsVelocity) {
   const Trajectory trajectory = make_trajectory();
   for (double t = 4.0; t < 20.0; t += 0.1) {

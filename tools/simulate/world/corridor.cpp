@@ -12,7 +12,11 @@ namespace {
 
 /// The centre line is a rectangle; walls stand 1.5 m to either side of it. People keep 0.8 m off it, which
 /// leaves them 0.25 m from furniture and 0.5 m from the robot's middle.
-constexpr double kLength_m = 18.0, kDepth_m = 12.0, kHalfWidth_m = 1.5, kHeight_m = 2.8;
+struct Ring {
+  double length_m;
+  double depth_m;
+};
+constexpr double kHalfWidth_m = 1.5, kHeight_m = 2.8;
 constexpr double kLaneOffset_m = 0.8;
 constexpr double kCornerReach_m = 1.0;  ///< corners of the waypoints are means over this reach
 /// A mean over this reach rounds corners as tools/simulate/route.hpp does (a Gaussian of 0.6 m has its
@@ -24,7 +28,7 @@ std::uint32_t plaster(Scene& s, const Rgb& colour, float contrast, std::uint32_t
 }
 
 /// Floor in four kinds, ceiling in panels.
-void add_floor_and_ceiling(Scene& s, std::uint32_t seed) {
+void add_floor_and_ceiling(Scene& s, const Ring& ring, std::uint32_t seed) {
   constexpr double kOut = kHalfWidth_m + 0.3;
   const auto terrazzo =
       s.add({Pattern::kTiles, {0.42F, 0.40F, 0.37F}, {0.16F, 0.15F, 0.14F}, 0.6F, 0.16F, 0.35F, seed});
@@ -32,25 +36,26 @@ void add_floor_and_ceiling(Scene& s, std::uint32_t seed) {
       s.add({Pattern::kTiles, {0.24F, 0.25F, 0.26F}, {0.10F, 0.10F, 0.10F}, 0.45F, 0.18F, 0.25F, seed + 1});
   const auto parquet =
       s.add({Pattern::kWood, {0.40F, 0.25F, 0.13F}, {0.12F, 0.07F, 0.04F}, 0.14F, 0.25F, 0.45F, seed + 2});
-  const double x1 = kLength_m + kOut, y1 = kDepth_m + kOut;
+  const double x1 = ring.length_m + kOut, y1 = ring.depth_m + kOut;
   s.add_box({-kOut, -kOut, -0.2}, {x1, kHalfWidth_m, 0.0}, terrazzo);
-  s.add_box({kLength_m - kHalfWidth_m, kHalfWidth_m, -0.2}, {x1, kDepth_m - kHalfWidth_m, 0.0}, parquet);
-  s.add_box({-kOut, kDepth_m - kHalfWidth_m, -0.2}, {x1, y1, 0.0}, slate);
-  s.add_box({-kOut, kHalfWidth_m, -0.2}, {kHalfWidth_m, kDepth_m - kHalfWidth_m, 0.0}, terrazzo);
+  s.add_box({ring.length_m - kHalfWidth_m, kHalfWidth_m, -0.2}, {x1, ring.depth_m - kHalfWidth_m, 0.0},
+            parquet);
+  s.add_box({-kOut, ring.depth_m - kHalfWidth_m, -0.2}, {x1, y1, 0.0}, slate);
+  s.add_box({-kOut, kHalfWidth_m, -0.2}, {kHalfWidth_m, ring.depth_m - kHalfWidth_m, 0.0}, terrazzo);
   const auto panels =
       s.add({Pattern::kTiles, {0.72F, 0.72F, 0.70F}, {0.38F, 0.38F, 0.37F}, 0.6F, 0.05F, 0.8F, seed + 3});
   s.add_box({-kOut, -kOut, kHeight_m}, {x1, y1, kHeight_m + 0.2}, panels);
 }
 
 /// Walls in the order in which the robot passes them, right of it first: outer, inner, of each side.
-std::array<Wall, 8> corridor_walls() {
-  constexpr double kOut = kHalfWidth_m, kX0 = -kOut, kX1 = kLength_m + kOut, kY0 = -kOut,
-                   kY1 = kDepth_m + kOut;
-  constexpr double kInX0 = kOut, kInX1 = kLength_m - kOut, kInY0 = kOut, kInY1 = kDepth_m - kOut;
-  return {make_wall({kX1, kY0}, {kX0, kY0}), make_wall({kInX0, kInY0}, {kInX1, kInY0}),
-          make_wall({kX1, kY1}, {kX1, kY0}), make_wall({kInX1, kInY0}, {kInX1, kInY1}),
-          make_wall({kX0, kY1}, {kX1, kY1}), make_wall({kInX1, kInY1}, {kInX0, kInY1}),
-          make_wall({kX0, kY0}, {kX0, kY1}), make_wall({kInX0, kInY1}, {kInX0, kInY0})};
+std::array<Wall, 8> corridor_walls(const Ring& ring) {
+  constexpr double kOut = kHalfWidth_m;
+  const double x0 = -kOut, x1 = ring.length_m + kOut, y0 = -kOut, y1 = ring.depth_m + kOut;
+  const double in_x0 = kOut, in_x1 = ring.length_m - kOut, in_y0 = kOut, in_y1 = ring.depth_m - kOut;
+  return {make_wall({x1, y0}, {x0, y0}), make_wall({in_x0, in_y0}, {in_x1, in_y0}),
+          make_wall({x1, y1}, {x1, y0}), make_wall({in_x1, in_y0}, {in_x1, in_y1}),
+          make_wall({x0, y1}, {x1, y1}), make_wall({in_x1, in_y1}, {in_x0, in_y1}),
+          make_wall({x0, y0}, {x0, y1}), make_wall({in_x0, in_y1}, {in_x0, in_y0})};
 }
 
 void add_wall_surfaces(Scene& s, const std::array<Wall, 8>& walls, const Fittings& with, std::uint32_t seed) {
@@ -122,11 +127,11 @@ void furnish(Scene& s, const std::array<Wall, 8>& walls, const Fittings& with, s
   }
 }
 
-void add_lamps(Scene& s, const Polyline& centre_line) {
+void add_lamps(Scene& s, const Ring& ring, const Polyline& centre_line) {
   const auto glow = s.add({Pattern::kLamp, {0.97F, 0.97F, 0.93F}, Rgb::Ones(), 1.0F, 0.0F, 0.8F, 0, 0.97F});
   const auto rim = s.add({Pattern::kPaint, {0.6F, 0.6F, 0.6F}, Rgb::Ones(), 1.0F, 0.0F, 0.7F, 0});
   for (const Eigen::Vector3d& p : resample(centre_line, true, 2.5)) {
-    const bool along_x = p.y() < 0.01 || p.y() > kDepth_m - 0.01;
+    const bool along_x = p.y() < 0.01 || p.y() > ring.depth_m - 0.01;
     const Eigen::Vector3d half = along_x ? Eigen::Vector3d(0.6, 0.15, 0) : Eigen::Vector3d(0.15, 0.6, 0);
     const Eigen::Vector3d at(p.x(), p.y(), kHeight_m);
     const Eigen::Vector3d border(0.03, 0.03, 0.0);
@@ -136,18 +141,37 @@ void add_lamps(Scene& s, const Polyline& centre_line) {
   }
 }
 
-}  // namespace
+/// Floor, ceiling and walls in one even paint, and nothing on them.
+void add_bare_shell(Scene& s, const Ring& ring) {
+  constexpr double kOut = kHalfWidth_m + 0.3;
+  const auto paint = [&s](const Rgb& colour) {
+    return s.add({Pattern::kPaint, colour, colour, 1.0F, 0.0F, 0.2F + 0.7F * colour.mean(), 0});
+  };
+  const auto floor = paint({0.42F, 0.42F, 0.41F}), wall = paint({0.68F, 0.68F, 0.66F});
+  const double x1 = ring.length_m + kOut, y1 = ring.depth_m + kOut;
+  s.add_box({-kOut, -kOut, -0.2}, {x1, y1, 0.0}, floor);
+  s.add_box({-kOut, -kOut, kHeight_m}, {x1, y1, kHeight_m + 0.2}, paint({0.72F, 0.72F, 0.70F}));
+  const std::array<Wall, 8> walls = corridor_walls(ring);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const double past = i % 2 == 0 ? 0.2 : i % 4 == 3 ? -0.2 : 0.0;
+    add_on_wall(s, walls[i], {-past, walls[i].length_m + past, 0.0, kHeight_m, -0.2, 0.0}, wall);
+  }
+}
 
-Scene make_corridor(std::uint64_t seed) {
-  Scene s;
+void add_furnished_shell(Scene& s, const Ring& ring, std::uint64_t seed) {
   const auto number = static_cast<std::uint32_t>(mix_bits(seed));
   const Fittings with = add_fittings(s, number + 100);
-  const std::array<Wall, 8> walls = corridor_walls();
-  add_floor_and_ceiling(s, number);
+  const std::array<Wall, 8> walls = corridor_walls(ring);
+  add_floor_and_ceiling(s, ring, number);
   add_wall_surfaces(s, walls, with, number);
   furnish(s, walls, with, seed);
-  const Polyline corners{{0, 0, 0}, {kLength_m, 0, 0}, {kLength_m, kDepth_m, 0}, {0, kDepth_m, 0}};
-  add_lamps(s, corners);
+}
+
+/// Light, route and footways of a corridor whose shell is there.
+void finish(Scene& s, const Ring& ring) {
+  const Polyline corners{
+      {0, 0, 0}, {ring.length_m, 0, 0}, {ring.length_m, ring.depth_m, 0}, {0, ring.depth_m, 0}};
+  add_lamps(s, ring, corners);
   s.light.ambient_up = {0.32F, 0.32F, 0.31F};
   s.light.ambient_down = {0.48F, 0.47F, 0.43F};  // the floor throws the lamps' light back up
   s.light.ambient_reach_m = 1.2;
@@ -160,6 +184,31 @@ Scene make_corridor(std::uint64_t seed) {
   const Polyline driven = smooth_closed(smooth_closed(corners, kCornerReach_m), kRouteReach_m);
   s.footways = {{offset_left(driven, true, -kLaneOffset_m), true, 0.85},
                 {offset_left(driven, true, kLaneOffset_m), true, -1.15}};
+}
+
+}  // namespace
+
+Scene make_corridor(std::uint64_t seed) {
+  constexpr Ring kRing{18.0, 12.0};
+  Scene s;
+  add_furnished_shell(s, kRing, seed);
+  finish(s, kRing);
+  return s;
+}
+
+Scene make_bare_corridor() {
+  constexpr Ring kRing{18.0, 12.0};
+  Scene s;
+  add_bare_shell(s, kRing);
+  finish(s, kRing);
+  return s;
+}
+
+Scene make_loop(std::uint64_t seed) {
+  constexpr Ring kRing{90.0, 60.0};
+  Scene s;
+  add_furnished_shell(s, kRing, seed);
+  finish(s, kRing);
   return s;
 }
 

@@ -138,11 +138,14 @@ Result<std::unique_ptr<World>> World::create(const WorldConfig& config) {
     return std::make_unique<SceneWorld>(std::move(scene), config);
   };
   if (config.name == "corridor") return built(make_corridor(config.seed));
+  if (config.name == "bare") return built(make_bare_corridor());
+  if (config.name == "loop") return built(make_loop(config.seed));
+  if (config.name == "stairs") return built(make_stairs(config.seed));
   if (config.name == "street") return built(make_street(config.seed));
   if (config.name == "tunnel") return built(make_tunnel(config.seed));
   if (config.name == "square") return built(make_square(config.seed));
-  return fail(Errc::kInvalidConfig,
-              "there is no world '" + config.name + "': use corridor, street, tunnel or square");
+  return fail(Errc::kInvalidConfig, "there is no world '" + config.name +
+                                        "': use corridor, bare, loop, stairs, street, tunnel or square");
 }
 
 }  // namespace edgesplat::simulate

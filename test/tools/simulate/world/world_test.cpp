@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <string_view>
 
 namespace edgesplat::simulate {
 namespace {
@@ -66,7 +68,7 @@ TEST_P(EveryWorld, PathKeepsItsDistanceFromEverythingStatic) {
   for (const Vector3d& p : path.waypoints_m) {
     for (int k = 0; k < 72; ++k) {
       const double angle = k * 5.0 * 3.14159265 / 180.0;
-      for (const double up : {-0.35, 0.0, 0.4}) {
+      for (const double up : {GetParam() == "stairs" ? 0.2 : -0.35, 0.0, 0.4}) {
         const auto hit = w->cast({p + Vector3d(0, 0, up), {std::cos(angle), std::sin(angle), 0.0}, 0.0},
                                  Visibility::kStaticOnly);
         if (hit) {
@@ -76,7 +78,7 @@ TEST_P(EveryWorld, PathKeepsItsDistanceFromEverythingStatic) {
     }
     const auto ground = w->cast({p, {0, 0, -1}, 0.0}, Visibility::kStaticOnly);
     ASSERT_TRUE(ground);
-    EXPECT_NEAR(ground->range_m, 0.6, 0.02);
+    EXPECT_NEAR(ground->range_m, 0.6, GetParam() == "stairs" ? 0.12 : 0.02);
   }
 }
 
@@ -180,12 +182,58 @@ TEST_P(EveryWorld, ShadeIsTheOnlyDifferenceOnStaticSurfaces) {
   EXPECT_GT(untouched, 300);
 }
 
-INSTANTIATE_TEST_SUITE_P(Worlds, EveryWorld, testing::Values("corridor", "street", "tunnel", "square"),
+INSTANTIATE_TEST_SUITE_P(Worlds, EveryWorld,
+                         testing::Values("corridor", "bare", "loop", "stairs", "street", "tunnel", "square"),
                          [](const auto& place) { return place.param; });
 
-TEST(World, OnlyTheCorridorIsClosed) {
-  for (const char* name : {"corridor", "street", "tunnel", "square"})
-    EXPECT_EQ(world(name)->path().closed, std::string(name) == "corridor");
+TEST(World, OnlyCorridorsAreClosed) {
+  for (const char* name : {"corridor", "bare", "loop", "stairs", "street", "tunnel", "square"}) {
+    const std::string_view place = name;
+    EXPECT_EQ(world(name)->path().closed, place == "corridor" || place == "bare" || place == "loop");
+  }
+}
+
+double length_m(const World::Path& path) {
+  double length = path.closed ? (path.waypoints_m.front() - path.waypoints_m.back()).norm() : 0.0;
+  for (std::size_t i = 1; i < path.waypoints_m.size(); ++i)
+    length += (path.waypoints_m[i] - path.waypoints_m[i - 1]).norm();
+  return length;
+}
+
+TEST(World, TheLoopIs300MetresAround) {
+  EXPECT_NEAR(length_m(world("loop")->path()), 300.0, 4.0);
+}
+
+TEST(World, StairsClimbTwoStoreys) {
+  const World::Path path = world("stairs")->path();
+  EXPECT_NEAR(path.waypoints_m.back().z() - path.waypoints_m.front().z(), 6.8, 0.01);
+  for (std::size_t i = 1; i < path.waypoints_m.size(); ++i)
+    EXPECT_GE(path.waypoints_m[i].z(), path.waypoints_m[i - 1].z());
+}
+
+TEST(World, ABareCorridorHasTheSameWallsAndNoTexture) {
+  const auto bare = world("bare"), furnished = world("corridor");
+  RandomRays rays(14);
+  int same = 0, edges = 0, seen = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d origin = somewhere_on(bare->path(), rays), direction = rays.direction();
+    const auto hit = bare->cast({origin, direction, 0}, Visibility::kStaticOnly);
+    const auto with_furniture = furnished->cast({origin, direction, 0}, Visibility::kStaticOnly);
+    ASSERT_TRUE(hit && with_furniture);
+    EXPECT_GT(hit->range_m, with_furniture->range_m - 0.01);
+    same += std::abs(hit->range_m - with_furniture->range_m) < 0.05 ? 1 : 0;
+    // A finger's breadth beside, the light is the same.
+    const Vector3d beside = (direction + Vector3d(0.01, 0.01, 0.01)).normalized();
+    const auto next = bare->cast({origin, beside, 0}, Visibility::kStaticOnly);
+    if (hit->range_m > 4.0 || !next || next->surface != hit->surface) continue;
+    const auto at = [&](const Vector3d& towards, const std::optional<Hit>& where) {
+      return bare->radiance({origin, towards, 0}, where, 0.01, Visibility::kStaticOnly).mean();
+    };
+    ++seen;
+    edges += std::abs(at(direction, hit) - at(beside, next)) > 0.02F ? 1 : 0;
+  }
+  EXPECT_GT(same, 700);
+  EXPECT_LT(edges * 20, seen);
 }
 
 TEST(World, ATunnelLooksTheSameAllAlongToALidar) {
