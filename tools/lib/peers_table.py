@@ -64,7 +64,9 @@ def reference_of_drive(folder):
 
 
 def run_json(command, **options):
-    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, **options).stdout.splitlines()[-1])
+    """What a program prints as JSON; some of the peers' libraries print statistics beside it."""
+    lines = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, **options).stdout.splitlines()
+    return json.loads(next(line for line in reversed(lines) if line.startswith("{\"")))
 
 
 def run_ours(edgesplat, mode, scans, trajectory):
