@@ -146,7 +146,8 @@ def check(sysroot, programs, list_path):
     for binary in binaries[:len(programs)]:
         # RPATH, unlike RUNPATH, is also where the shipped libraries' own needs are looked for.
         if binary.rpath != [RPATH] or binary.runpath:
-            words.append(f"{os.path.basename(binary.path)} has the rpath {binary.rpath + binary.runpath}, not {RPATH} alone")
+            words.append(f"{os.path.basename(binary.path)} has RPATH {binary.rpath} and RUNPATH {binary.runpath}, not RPATH {RPATH} "
+                         "alone: configure in a new build folder, an older one keeps its linker flags")
     for binary in binaries[len(programs):]:
         if any(path != DEBIAN_RUNPATH for path in binary.rpath + binary.runpath):
             words.append(f"{os.path.basename(binary.path)} looks for libraries in {binary.rpath + binary.runpath}")

@@ -118,8 +118,9 @@ class JetsonLibraries(unittest.TestCase):
         self.assertIn("libfmt.so.9 is not in", err)
 
     def test_refuses_another_machine_and_another_rpath(self):
-        for said, words in ((elf(machine="Advanced Micro Devices X86-64"), "not for AArch64"), (elf(rpath=""), "rpath"),
-                            (elf(rpath="/elsewhere/lib"), "rpath"), (elf(tag="RUNPATH"), "rpath")):
+        for said, words in ((elf(machine="Advanced Micro Devices X86-64"), "not for AArch64"), (elf(rpath=""), "RPATH []"),
+                            (elf(rpath="/elsewhere/lib"), "RPATH ['/elsewhere/lib']"),
+                            (elf(tag="RUNPATH"), "RUNPATH ['$ORIGIN/../lib'], not")):
             status, _, err = self.run_on(said)
             self.assertEqual(status, 1)
             self.assertIn(words, err)
