@@ -12,6 +12,8 @@ constexpr std::size_t kForeignRemembered = 16;
 constexpr nanoseconds kLongestPause = std::chrono::milliseconds(100);  // data that come move deadlines
 constexpr nanoseconds kNobodyAfter = std::chrono::seconds(5);
 constexpr nanoseconds kFirstDataPatience = std::chrono::seconds(2);
+constexpr nanoseconds kFirstRearmPause = std::chrono::seconds(1);
+constexpr nanoseconds kLongestRearmPause = std::chrono::seconds(30);
 
 std::string seconds_text(nanoseconds duration) {
   std::array<char, 32> text{};
@@ -57,9 +59,51 @@ HostTime LidarSession::step(HostTime now) {
     send_utc(*utc_ns);
     ++counters_.utc_told;
   }
-  const HostTime next = std::min(step_protocol(now), watch_.next_check());
-  const HostTime deadline = feeds ? std::min(next, utc_feed_.next_due()) : next;
-  return std::min(deadline, now + kLongestPause);
+  step_pending(now);
+  if (is_searching() && now >= next_search_) {
+    next_search_ = now + pace_.search_period;
+    note_nobody(now);
+    search(now);
+  }
+  HostTime next = std::min(step_protocol(now), watch_.next_check());
+  if (waits_for_data() && now >= next_rearm_) on_silence(now);
+  next = std::min(next, pending_.next_due());
+  if (is_searching()) next = std::min(next, next_search_);
+  if (waits_for_data()) next = std::min(next, next_rearm_);
+  if (feeds) next = std::min(next, utc_feed_.next_due());
+  return std::min(next, now + kLongestPause);
+}
+
+void LidarSession::step_pending(HostTime now) {
+  switch (pending_.due(now)) {
+    case PendingRequest::Due::kRepeat:
+      ++counters_.retries;
+      send(pending_.to(), pending_.bytes());
+      break;
+    case PendingRequest::Due::kGiveUp:
+      note_unreachable(unit_->serial_number + " at " + to_string(unit_->at.ip));
+      search_from(now + pace_.pause_after_all);
+      break;
+    case PendingRequest::Due::kNothing:
+      break;
+  }
+}
+
+/// The longer it stays silent the more seldom it is brought up again.
+void LidarSession::on_silence(HostTime now) {
+  rearm_pause_ = std::min(2 * rearm_pause_, kLongestRearmPause);
+  bring_up_again(now);
+}
+
+void LidarSession::search_from(HostTime when) {
+  become_searching();
+  pending_.forget();
+  next_search_ = when;
+}
+
+void LidarSession::ask(std::uint32_t sequence, std::vector<std::byte> bytes, HostTime now) {
+  pending_.begin(unit_->at, sequence, bytes, now);
+  send(unit_->at, std::move(bytes));
 }
 
 void LidarSession::send(const Endpoint& to, std::vector<std::byte> bytes) {
@@ -118,6 +162,8 @@ void LidarSession::note_nobody(HostTime now) {
 }
 
 void LidarSession::note_sampling(HostTime now) {
+  if (!watch_.silent()) rearm_pause_ = kFirstRearmPause;
+  next_rearm_ = now + rearm_pause_;
   watch_.expect(now, kFirstDataPatience);
   tell(LidarEventKind::kSampling, unit_->serial_number + " at " + to_string(unit_->at.ip));
 }

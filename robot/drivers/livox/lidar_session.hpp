@@ -6,6 +6,7 @@
 #include "robot/drivers/livox/data_watch.hpp"
 #include "robot/drivers/livox/endpoint.hpp"
 #include "robot/drivers/livox/lidar_event.hpp"
+#include "robot/drivers/livox/pending_request.hpp"
 #include "robot/drivers/livox/sdk1_command.hpp"
 #include "robot/drivers/livox/utc_feed.hpp"
 
@@ -54,8 +55,6 @@ class LidarSession {
     std::vector<std::byte> bytes;
   };
 
-  LidarSession(LidarSessionConfig config, HostTowards host_towards)
-      : config_(std::move(config)), host_towards_(std::move(host_towards)), watch_(config_.has_imu) {}
   virtual ~LidarSession() = default;
   LidarSession(const LidarSession&) = delete;
   LidarSession& operator=(const LidarSession&) = delete;
@@ -81,16 +80,38 @@ class LidarSession {
   [[nodiscard]] const LidarSessionConfig& config() const { return config_; }
 
  protected:
+  /// How patient the protocol is.
+  struct Pace {
+    nanoseconds answer_timeout;   ///< then a request is repeated, four times at most
+    nanoseconds search_period;    ///< between two searches
+    nanoseconds pause_after_all;  ///< no repetition was answered: the search begins after this
+  };
+  LidarSession(LidarSessionConfig config, HostTowards host_towards, Pace pace)
+      : config_(std::move(config)),
+        host_towards_(std::move(host_towards)),
+        watch_(config_.has_imu),
+        pending_(pace.answer_timeout, 5),
+        pace_(pace) {}
+
   struct Unit {
     std::string serial_number;
     Endpoint at;  ///< where it takes commands
   };
-  /// Timers of the protocol; returns the next one.
+  /// What else the protocol has to do by now; returns when it wants to be called again at the latest.
   [[nodiscard]] virtual HostTime step_protocol(HostTime now) = 0;
-  virtual void on_silence(HostTime now) = 0;
+  /// Nobody is served yet: asks for the unit once.
+  virtual void search(HostTime now) = 0;
+  /// It should measure, but no data come.
+  virtual void bring_up_again(HostTime now) = 0;
   virtual void send_utc(std::int64_t utc_ns) = 0;
+  [[nodiscard]] virtual bool is_searching() const = 0;
   [[nodiscard]] virtual bool is_sampling() const = 0;
+  virtual void become_searching() = 0;
 
+  /// Forgets what was under way and searches, from `when` on.
+  void search_from(HostTime when);
+  /// Sends a request to the unit and waits for its acknowledgement.
+  void ask(std::uint32_t sequence, std::vector<std::byte> bytes, HostTime now);
   void send(const Endpoint& to, std::vector<std::byte> bytes);
   void tell(LidarEventKind kind, std::string detail);
   /// Whether this is the unit to use; one that is not is told of once.
@@ -110,11 +131,20 @@ class LidarSession {
   HostTowards host_towards_;
   DataWatch watch_;
   UtcFeed utc_feed_;
+  PendingRequest pending_;
   std::optional<Unit> unit_;
   LidarHealth health_;
   LidarSessionCounters counters_;
 
  private:
+  void step_pending(HostTime now);
+  void on_silence(HostTime now);
+  [[nodiscard]] bool waits_for_data() const { return is_sampling() && watch_.silent(); }
+
+  Pace pace_;
+  HostTime next_search_{};                 ///< while it is searched for
+  HostTime next_rearm_ = HostTime::max();  ///< while it should measure and is silent
+  nanoseconds rearm_pause_ = std::chrono::seconds(1);
   std::vector<Outgoing> outgoing_;
   std::vector<LidarEvent> events_;
   std::vector<std::string> foreign_;  ///< serial numbers that were told of, a few

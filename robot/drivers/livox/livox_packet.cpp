@@ -126,21 +126,9 @@ sensor::LidarPacket to_lidar_packet(const DataPacket& packet, HostTime arrival, 
   ByteReader reader(packet.records);
   for (std::uint16_t i = 0; i < packet.record_count; ++i) {
     const RawPoint raw = read_point(packet.type, reader);
-    if (!raw.has_return) {
-      ++drops.no_return;
-      continue;
-    }
-    const std::uint8_t confidence = worst_confidence(raw.tag);
-    if (confidence >= filter.drop_confidence_from) {
-      ++drops.low_confidence;
-      continue;
-    }
-    sensor::LidarPoint& point = out.points.emplace_back();
-    point.p_in_lidar_m = raw.p_m;
-    point.reflectivity = static_cast<float>(raw.reflectivity) / 255.0F;
-    point.offset_ns = static_cast<std::int32_t>(packet.span.count() * i / gaps);
-    point.line = static_cast<std::uint8_t>(i % kLaserLines);
-    point.noise_class = confidence == 0 ? std::uint8_t{0} : std::uint8_t{1};
+    const PlaceInPacket place{static_cast<std::int32_t>(packet.span.count() * i / gaps),
+                              static_cast<std::uint8_t>(i % kLaserLines)};
+    keep_point(raw, worst_confidence(raw.tag), place, filter, drops, out.points);
   }
   return out;
 }

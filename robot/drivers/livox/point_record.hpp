@@ -3,12 +3,15 @@
 #pragma once
 
 #include "common/base/bytes.hpp"
+#include "common/sensor/measurement.hpp"
+#include "robot/drivers/livox/livox_packet.hpp"
 
 #include <Eigen/Core>
 
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 namespace edgesplat::livox {
 
@@ -56,6 +59,31 @@ inline RawPosition to_position(std::uint32_t depth_mm, RawDirection direction) {
                             range_m * std::sin(zenith_rad) * std::sin(azimuth_rad),
                             range_m * std::cos(zenith_rad));
   return {p_m.cast<float>(), depth_mm != 0};
+}
+
+/// When a return was fired, after the packet's stamp, and by which laser.
+struct PlaceInPacket {
+  std::int32_t offset_ns;
+  std::uint8_t line;
+};
+
+/// Appends a return as a point, or counts why it is none. `confidence`: 0 good, 1 medium, 2 low.
+inline void keep_point(const RawPoint& raw, std::uint8_t confidence, PlaceInPacket place, PointFilter filter,
+                       PointDrops& drops, std::vector<sensor::LidarPoint>& points) {
+  if (!raw.has_return) {
+    ++drops.no_return;
+    return;
+  }
+  if (confidence >= filter.drop_confidence_from) {
+    ++drops.low_confidence;
+    return;
+  }
+  sensor::LidarPoint& point = points.emplace_back();
+  point.p_in_lidar_m = raw.p_m;
+  point.reflectivity = static_cast<float>(raw.reflectivity) / 255.0F;
+  point.offset_ns = place.offset_ns;
+  point.line = place.line;
+  point.noise_class = confidence == 0 ? std::uint8_t{0} : std::uint8_t{1};
 }
 
 }  // namespace edgesplat::livox

@@ -130,21 +130,9 @@ sensor::LidarPacket to_lidar_packet(const Sdk1Packet& packet, HostTime arrival, 
     for (int i = 0; i < layout.returns; ++i) {
       const RawPoint raw = layout.spherical && !shares_direction ? read_single_spherical(layout, reader)
                                                                  : read_return(layout, direction, reader);
-      if (!raw.has_return) {
-        ++drops.no_return;
-        continue;
-      }
-      const std::uint8_t confidence = confidence_of(raw.tag);
-      if (confidence >= filter.drop_confidence_from) {
-        ++drops.low_confidence;
-        continue;
-      }
-      sensor::LidarPoint& point = out.points.emplace_back();
-      point.p_in_lidar_m = raw.p_m;
-      point.reflectivity = static_cast<float>(raw.reflectivity) / 255.0F;
-      point.offset_ns = static_cast<std::int32_t>(firing_time(static_cast<int>(shot)).count());
-      point.line = static_cast<std::uint8_t>(shot % kAviaLaserLines);
-      point.noise_class = confidence == 0 ? std::uint8_t{0} : std::uint8_t{1};
+      const PlaceInPacket place{static_cast<std::int32_t>(firing_time(static_cast<int>(shot)).count()),
+                                static_cast<std::uint8_t>(shot % kAviaLaserLines)};
+      keep_point(raw, confidence_of(raw.tag), place, filter, drops, out.points);
     }
   }
   return out;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/drivers/livox/sdk1_session.hpp"
 
-#include <algorithm>
 #include <array>
 
 namespace edgesplat::livox {
@@ -11,11 +10,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint16_t kUnitPort = 65000;
-constexpr nanoseconds kSearchPeriod = 1s;
 constexpr nanoseconds kHeartbeatPeriod = 800ms;
 constexpr int kMissedForLoss = 3;
 constexpr nanoseconds kFresh = 300ms;  // data this young: an announcement was overtaken by the handshake
-constexpr nanoseconds kLongestRearmPause = 30s;
 
 constexpr std::array kSettings{Sdk1Command::kDeviceInfo, Sdk1Command::kCoordinate, Sdk1Command::kReturnMode,
                                Sdk1Command::kImuRate, Sdk1Command::kSampling};
@@ -44,45 +41,14 @@ const char* sync_name(std::uint8_t time_sync) {
 
 }  // namespace
 
-void Sdk1Session::request(std::vector<std::byte> bytes, HostTime now) {
-  pending_.begin(unit_->at, sequence_, bytes, now);
-  send(unit_->at, std::move(bytes));
-}
-
 HostTime Sdk1Session::step_protocol(HostTime now) {
-  switch (pending_.due(now)) {
-    case PendingRequest::Due::kRepeat:
-      ++counters_.retries;
-      send(pending_.to(), pending_.bytes());
-      break;
-    case PendingRequest::Due::kGiveUp:
-      note_unreachable(unit_->serial_number + " at " + to_string(unit_->at.ip));
-      search_from(now + kSearchPeriod);
-      break;
-    case PendingRequest::Due::kNothing:
-      break;
-  }
-  if (phase_ == Phase::kSearching && now >= next_search_) search(now);
   if (in_session() && now >= next_heartbeat_) heartbeat(now);
-  if (phase_ == Phase::kSampling && watch_.silent() && now >= next_rearm_) on_silence(now);
-  HostTime next = pending_.next_due();
-  if (phase_ == Phase::kSearching) next = std::min(next, next_search_);
-  if (in_session()) next = std::min(next, next_heartbeat_);
-  if (phase_ == Phase::kSampling && watch_.silent()) next = std::min(next, next_rearm_);
-  return next;
-}
-
-void Sdk1Session::search_from(HostTime when) {
-  phase_ = Phase::kSearching;
-  pending_.forget();
-  next_search_ = when;
+  return in_session() ? next_heartbeat_ : HostTime::max();
 }
 
 /// A LiDAR in search of a host announces itself; only where it is known, and perhaps still bound to a host
 /// that is gone, is there something to send.
 void Sdk1Session::search(HostTime now) {
-  next_search_ = now + kSearchPeriod;
-  note_nobody(now);
   if (!unit_ && config_.address) unit_ = Unit{config_.serial_number, {*config_.address, kUnitPort}};
   if (unit_) shake_hands(now);
 }
@@ -91,7 +57,7 @@ void Sdk1Session::shake_hands(HostTime now) {
   const auto host = host_towards_(unit_->at.ip);
   if (!host) {
     note_unreachable("no way leads from this machine to " + to_string(unit_->at.ip));
-    search_from(now + kSearchPeriod);
+    search_from(now + kPace.search_period);
     return;
   }
   phase_ = Phase::kHandshake;
@@ -121,8 +87,6 @@ void Sdk1Session::begin_settings(HostTime now) {
 void Sdk1Session::next_setting(HostTime now) {
   if (setting_ == kSettings.size()) {
     phase_ = Phase::kSampling;
-    if (!watch_.silent()) rearm_pause_ = 1s;
-    next_rearm_ = now + rearm_pause_;
     note_sampling(now);
     return;
   }
@@ -147,8 +111,7 @@ void Sdk1Session::next_setting(HostTime now) {
   }
 }
 
-void Sdk1Session::on_silence(HostTime now) {
-  rearm_pause_ = std::min(2 * rearm_pause_, kLongestRearmPause);
+void Sdk1Session::bring_up_again(HostTime now) {
   // In session still, as far as is known: its settings again. Where they are not answered, the handshake.
   if (phase_ == Phase::kSampling) begin_settings(now);
 }
@@ -206,7 +169,7 @@ void Sdk1Session::on_ack(const Sdk1Frame& frame, HostTime now) {
     if (*code == 0) {
       begin_settings(now);
     } else {
-      search_from(now + kSearchPeriod);
+      search_from(now + kPace.search_period);
     }
   } else if (phase_ == Phase::kSettings) {
     ++setting_;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "robot/drivers/livox/lidar_session.hpp"
-#include "robot/drivers/livox/pending_request.hpp"
 #include "robot/drivers/livox/sdk1_command.hpp"
 
 #include <cstdint>
@@ -15,7 +14,8 @@ namespace edgesplat::livox {
 /// Source: sensor-protocols sheet, 2.1, 2.7.
 class Sdk1Session final : public LidarSession {
  public:
-  using LidarSession::LidarSession;
+  Sdk1Session(LidarSessionConfig config, HostTowards host_towards)
+      : LidarSession(std::move(config), std::move(host_towards), kPace) {}
 
   void on_control(Channel channel, const Endpoint& from, std::span<const std::byte> datagram,
                   HostTime now) override;
@@ -24,15 +24,18 @@ class Sdk1Session final : public LidarSession {
 
  private:
   enum class Phase : std::uint8_t { kSearching, kHandshake, kSettings, kSampling };
+  static constexpr Pace kPace{std::chrono::milliseconds(500), std::chrono::seconds(1),
+                              std::chrono::seconds(1)};
 
   [[nodiscard]] HostTime step_protocol(HostTime now) override;
-  void on_silence(HostTime now) override;
+  void search(HostTime now) override;
+  void bring_up_again(HostTime now) override;
   void send_utc(std::int64_t utc_ns) override;
+  [[nodiscard]] bool is_searching() const override { return phase_ == Phase::kSearching; }
   [[nodiscard]] bool is_sampling() const override { return phase_ == Phase::kSampling; }
+  void become_searching() override { phase_ = Phase::kSearching; }
 
-  void search(HostTime now);
-  void search_from(HostTime when);
-  void request(std::vector<std::byte> bytes, HostTime now);
+  void request(std::vector<std::byte> bytes, HostTime now) { ask(sequence_, std::move(bytes), now); }
   void on_announcement(const Sdk1Frame& frame, const Endpoint& from, HostTime now);
   void on_ack(const Sdk1Frame& frame, HostTime now);
   void on_heartbeat(const Sdk1Frame& frame);
@@ -45,14 +48,10 @@ class Sdk1Session final : public LidarSession {
   [[nodiscard]] bool in_session() const { return phase_ >= Phase::kSettings; }
 
   Phase phase_ = Phase::kSearching;
-  PendingRequest pending_{std::chrono::milliseconds(500), 5};
   std::uint16_t sequence_ = 0;
   std::size_t setting_ = 0;    ///< kSettings: which is under way
-  HostTime next_search_{};     ///< kSearching, where the address is known
   HostTime next_heartbeat_{};  ///< in session
   int missed_heartbeats_ = 0;
-  HostTime next_rearm_ = HostTime::max();  ///< kSampling, while silent
-  nanoseconds rearm_pause_ = std::chrono::seconds(1);
   std::uint8_t last_system_status_ = 0;
 };
 

@@ -17,11 +17,9 @@ constexpr std::uint16_t kControlPort = 56100;
 constexpr std::uint16_t kUnitPushPort = 56200;
 constexpr std::uint16_t kUnitPointsPort = 56300;
 constexpr std::uint16_t kUnitImuPort = 56400;
-constexpr nanoseconds kSearchPeriod = 500ms;
 constexpr nanoseconds kPollPeriod = 200ms;
 constexpr nanoseconds kLongestStart = 20s;  // a motor takes seconds
 constexpr nanoseconds kRetryLater = 5s;
-constexpr nanoseconds kLongestRearmPause = 30s;
 constexpr std::uint16_t kRebootDelay_ms = 100;
 
 constexpr std::uint8_t kDone = 0x00;
@@ -50,25 +48,7 @@ std::uint32_t Sdk2Session::next_sequence() {
   return sequence_;
 }
 
-void Sdk2Session::request(std::vector<std::byte> bytes, HostTime now) {
-  pending_.begin(unit_->at, sequence_, bytes, now);
-  send(unit_->at, std::move(bytes));
-}
-
 HostTime Sdk2Session::step_protocol(HostTime now) {
-  switch (pending_.due(now)) {
-    case PendingRequest::Due::kRepeat:
-      ++counters_.retries;
-      send(pending_.to(), pending_.bytes());
-      break;
-    case PendingRequest::Due::kGiveUp:
-      note_unreachable(unit_->serial_number + " at " + to_string(unit_->at.ip));
-      search_from(now);
-      break;
-    case PendingRequest::Due::kNothing:
-      break;
-  }
-  if (phase_ == Phase::kSearching && now >= next_search_) search(now);
   if (phase_ == Phase::kStarting && !pending_.waits() && now >= next_poll_) {
     if (now >= start_deadline_) {
       note_unreachable(unit_->serial_number + " does not start: work state " +
@@ -79,34 +59,16 @@ HostTime Sdk2Session::step_protocol(HostTime now) {
       request(encode_query(next_sequence(), keys), now);
     }
   }
-  if (phase_ == Phase::kSampling && watch_.silent() && now >= next_rearm_) on_silence(now);
-  HostTime next = pending_.next_due();
-  if (phase_ == Phase::kSearching) next = std::min(next, next_search_);
-  if (phase_ == Phase::kStarting && !pending_.waits()) next = std::min(next, next_poll_);
-  if (phase_ == Phase::kSampling && watch_.silent()) next = std::min(next, next_rearm_);
-  return next;
-}
-
-void Sdk2Session::search_from(HostTime when) {
-  phase_ = Phase::kSearching;
-  pending_.forget();
-  next_search_ = when;
+  return phase_ == Phase::kStarting && !pending_.waits() ? next_poll_ : HostTime::max();
 }
 
 void Sdk2Session::search(HostTime now) {
-  next_search_ = now + kSearchPeriod;
-  note_nobody(now);
   if (config_.address) {
     if (!unit_) unit_ = Unit{config_.serial_number, {*config_.address, kControlPort}};
     read_parameters(now);
     return;
   }
   send({kBroadcast, kDiscoveryPort}, encode_discovery(next_sequence()));
-}
-
-void Sdk2Session::on_silence(HostTime now) {
-  rearm_pause_ = std::min(2 * rearm_pause_, kLongestRearmPause);
-  search_from(now);
 }
 
 void Sdk2Session::on_control(Channel, const Endpoint& from, std::span<const std::byte> datagram,
@@ -129,7 +91,7 @@ void Sdk2Session::on_control(Channel, const Endpoint& from, std::span<const std:
   const auto reply = decode_parameter_reply(*frame);
   if (!reply) {
     ++counters_.bad_frames;
-    search_from(now + kSearchPeriod);
+    search_from(now + kPace.search_period);
     return;
   }
   on_reply(*reply, now);
@@ -164,7 +126,7 @@ void Sdk2Session::on_reply(const ParameterReply& reply, HostTime now) {
     case Phase::kConfiguring:
       if (reply.return_code == kDoneAfterReboot && !std::exchange(was_rebooted_, true)) {
         request(encode_reboot(next_sequence(), kRebootDelay_ms), now);
-        search_from(now + kSearchPeriod);
+        search_from(now + kPace.search_period);
         return;
       }
       if (reply.return_code != kDone && reply.return_code != kDoneAfterReboot)
@@ -254,8 +216,6 @@ void Sdk2Session::start(HostTime now) {
 void Sdk2Session::begin_sampling(HostTime now) {
   phase_ = Phase::kSampling;
   told_no_firmware_ = false;
-  if (!watch_.silent()) rearm_pause_ = 1s;
-  next_rearm_ = now + rearm_pause_;
   note_sampling(now);
 }
 

@@ -4,7 +4,6 @@
 
 #include "robot/drivers/livox/lidar_session.hpp"
 #include "robot/drivers/livox/livox_command.hpp"
-#include "robot/drivers/livox/pending_request.hpp"
 #include "robot/drivers/livox/sdk2_report.hpp"
 
 namespace edgesplat::livox {
@@ -13,7 +12,8 @@ namespace edgesplat::livox {
 /// (they go to the unit's flash), sampling, state pushes watched. Source: sensor-protocols sheet, 1.5.
 class Sdk2Session final : public LidarSession {
  public:
-  using LidarSession::LidarSession;
+  Sdk2Session(LidarSessionConfig config, HostTowards host_towards)
+      : LidarSession(std::move(config), std::move(host_towards), kPace) {}
 
   void on_control(Channel channel, const Endpoint& from, std::span<const std::byte> datagram,
                   HostTime now) override;
@@ -21,15 +21,17 @@ class Sdk2Session final : public LidarSession {
 
  private:
   enum class Phase : std::uint8_t { kSearching, kReading, kConfiguring, kStarting, kSampling };
+  static constexpr Pace kPace{std::chrono::milliseconds(300), std::chrono::milliseconds(500), nanoseconds(0)};
 
   [[nodiscard]] HostTime step_protocol(HostTime now) override;
-  void on_silence(HostTime now) override;
+  void search(HostTime now) override;
+  void bring_up_again(HostTime now) override { search_from(now); }
   void send_utc(std::int64_t utc_ns) override;
+  [[nodiscard]] bool is_searching() const override { return phase_ == Phase::kSearching; }
   [[nodiscard]] bool is_sampling() const override { return phase_ == Phase::kSampling; }
+  void become_searching() override { phase_ = Phase::kSearching; }
 
-  void search(HostTime now);
-  void search_from(HostTime when);
-  void request(std::vector<std::byte> bytes, HostTime now);
+  void request(std::vector<std::byte> bytes, HostTime now) { ask(sequence_, std::move(bytes), now); }
   void read_parameters(HostTime now);
   void on_discovered(const CommandFrame& frame, HostTime now);
   void on_parameters(const ParameterReply& reply, HostTime now);
@@ -43,13 +45,9 @@ class Sdk2Session final : public LidarSession {
   [[nodiscard]] std::uint32_t next_sequence();
 
   Phase phase_ = Phase::kSearching;
-  PendingRequest pending_{std::chrono::milliseconds(300), 5};
   std::uint32_t sequence_ = 0;
-  HostTime next_search_{};                 ///< kSearching
-  HostTime next_poll_{};                   ///< kStarting
-  HostTime start_deadline_{};              ///< kStarting
-  HostTime next_rearm_ = HostTime::max();  ///< kSampling, while silent
-  nanoseconds rearm_pause_ = std::chrono::seconds(1);
+  HostTime next_poll_{};       ///< kStarting
+  HostTime start_deadline_{};  ///< kStarting
   bool was_rebooted_ = false;  ///< to take a setting: once
   bool told_no_firmware_ = false;
   Sdk2Report found_;  ///< by the last bring-up
