@@ -113,13 +113,13 @@ class GapFiller {
   }
 
   /// Between which depths to look: those of what the view shows, and far beyond.
-  [[nodiscard]] mapping::SweepOptions sweep_options(const Drawn& drawn) const {
+  [[nodiscard]] mapping::SweepOptions sweep_options(const Drawn& drawn, int stride_px) const {
     std::vector<float> depths;
     for (std::size_t i = 0; i < drawn.alpha.size(); i += 3) {
       if (drawn.alpha[i] >= options_.max_alpha) depths.push_back(drawn.depth_sum_m[i] / drawn.alpha[i]);
     }
     mapping::SweepOptions out;
-    out.stride_px = options_.stride_px;
+    out.stride_px = stride_px;
     out.max_alpha = options_.max_alpha;
     if (depths.empty()) return out;
     std::ranges::sort(depths);
@@ -147,7 +147,8 @@ class GapFiller {
   }
 
   void fill(const StoredView& view, const Drawn& drawn) {
-    const mapping::SweepOptions options = sweep_options(drawn);
+    const int stride_px = std::clamp(view.camera().width_px / options_.columns, 1, 32);
+    const mapping::SweepOptions options = sweep_options(drawn, stride_px);
     const auto partners = mapping::sweep_partners(view, others_by_direction(view), options);
     DepthGrid grid(view.camera(), options.stride_px);
     for (const PixelDepth& swept : mapping::sweep_depths(view, partners, nullptr, drawn.alpha, options))

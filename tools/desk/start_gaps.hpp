@@ -16,7 +16,7 @@ struct GapOptions {
   double scale = 1.0;      ///< of the training's units by the scene's
   std::size_t most = 0;    ///< Gaussians added
   float opacity = 0.1F;    ///< of theirs, 0.01..0.9
-  int stride_px = 2;       ///< of pictures of half the size: a Gaussian every so many pixels, 1..32
+  int columns = 80;        ///< a Gaussian for every such part of a picture's width, 8..1000
   float max_alpha = 0.5F;  ///< what the start covers less is a gap, 0..1
 };
 

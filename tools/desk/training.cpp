@@ -23,10 +23,10 @@ constexpr double kTrainingExtent_m = 5.0;
 constexpr std::size_t kLeastPoints = 10;
 constexpr std::uint16_t kOrigin = 1;
 
-mapping::OptimiserOptions optimiser_options(const TrainingOptions& options) {
+mapping::OptimiserOptions optimiser_options(const TrainingOptions& options, std::size_t max_gaussians) {
   mapping::OptimiserOptions out;
   out.sh_degree = mapping::Schedule(options.schedule).sh_degree(0.0);
-  out.max_gaussians = options.max_gaussians;
+  out.max_gaussians = max_gaussians;
   out.rates.mean_m = 1.6e-4F * static_cast<float>(kTrainingExtent_m);
   out.rates.opacity_logit = 5e-2F;
   out.rates = mapping::scaled(out.rates, options.rate_factor);
@@ -48,9 +48,8 @@ mapping::DensifyOptions densify_options(std::size_t most_rows) {
   return out;
 }
 
-mapping::RelocateOptions relocate_options(const TrainingOptions& options) {
+mapping::RelocateOptions relocate_options() {
   mapping::RelocateOptions out;
-  out.max_rows = options.max_gaussians;
   out.max_sigma_m = 0.5F * static_cast<float>(kTrainingExtent_m);
   // 5e5 times the means' rate in the paper, where a scene's extent is 1.
   out.noise_per_m = 5e5F * 1.6e-4F / static_cast<float>(kTrainingExtent_m);
@@ -68,7 +67,7 @@ class Training {
         scale_(scale),
         optimiser_(std::move(optimiser)),
         ids_(ids),
-        relocator_(relocate_options(options)),
+        relocator_(relocate_options()),
         order_(pictures.size(), options.views),
         start_rows_(optimiser_.cloud().size()),
         clock_(clock) {
@@ -148,12 +147,22 @@ class Training {
     return view;
   }
 
+  /// How large the map shall become. Where its owner does not say, no larger than its pictures are worth, nor
+  /// than the steps that there is time for can fit.
+  [[nodiscard]] std::size_t final_rows() const {
+    if (options_.max_gaussians > 0) return options_.max_gaussians;
+    constexpr double kRowsAStep = 40.0, kLeastGrowth = 1.5;
+    const double steps = static_cast<double>(state_.iterations) / std::max(1e-9, progress());
+    const double most = std::max(kLeastGrowth * static_cast<double>(start_rows_), kRowsAStep * steps);
+    return std::min(optimiser_.options().max_gaussians, static_cast<std::size_t>(most));
+  }
+
   /// How large the map may be now: it grows by the same factor in equal times.
   [[nodiscard]] std::size_t most_rows() const {
     const double way = std::min(1.0, progress() / std::max(1e-9, 0.8 * options_.schedule.grow_until));
-    const double factor = static_cast<double>(options_.max_gaussians) / static_cast<double>(start_rows_);
-    return std::min(options_.max_gaussians, static_cast<std::size_t>(static_cast<double>(start_rows_) *
-                                                                     std::pow(std::max(1.0, factor), way)));
+    const double factor = static_cast<double>(final_rows()) / static_cast<double>(start_rows_);
+    return std::min(final_rows(), static_cast<std::size_t>(static_cast<double>(start_rows_) *
+                                                           std::pow(std::max(1.0, factor), way)));
   }
 
   void densify() {
@@ -208,7 +217,7 @@ Status check(std::span<const ScenePicture* const> pictures, const io::PointCloud
 
 /// As TrainingOptions::max_gaussians says.
 std::size_t gaussians_for(std::span<const ScenePicture* const> pictures) {
-  constexpr std::size_t kPixelsEach = 64, kLeast = 5'000, kMost = 300'000;
+  constexpr std::size_t kPixelsEach = 48, kLeast = 5'000, kMost = 300'000;
   std::size_t pixels = 0;
   for (const ScenePicture* picture : pictures) pixels += picture->picture.values.size() / 3;
   return std::clamp(pixels / kPixelsEach, kLeast, kMost);
@@ -219,11 +228,13 @@ Status add_start(std::span<const ScenePicture* const> pictures, const io::PointC
                  const TrainingOptions& options, mapping::IdAllocator& ids, mapping::Optimiser& optimiser) {
   io::PointCloud scaled = points;
   for (Eigen::Vector3f& point : scaled.points_m) point *= static_cast<float>(scale);
-  const std::size_t most = std::min(options.max_start_points, 3 * options.max_gaussians / 4);
+  const std::size_t most = std::min(options.max_start_points, 3 * optimiser.room() / 4);
   const auto start = gaussians_of_points(scaled, {kTrainingExtent_m, most, options.start_opacity}, ids);
   EDGESPLAT_TRY([[maybe_unused]] const std::size_t added, optimiser.add_rows(start));
   if (!options.fill_gaps) return {};
-  const GapOptions gaps{scale, optimiser.room() / 2, options.start_opacity};
+  constexpr std::size_t kAlways = 5'000;
+  const std::size_t most_in_gaps = std::min(optimiser.room() / 2, std::max(start.size() / 2, kAlways));
+  const GapOptions gaps{scale, most_in_gaps, options.start_opacity};
   EDGESPLAT_TRY(const auto filled, gaussians_in_gaps(pictures, start, gaps, ids));
   EDGESPLAT_TRY([[maybe_unused]] const std::size_t more, optimiser.add_rows(filled));
   return {};
@@ -249,16 +260,15 @@ Status TrainingOptions::validate() const {
 }
 
 Result<TrainedMap> train_map(std::span<const ScenePicture* const> pictures, const io::PointCloud& points,
-                             const TrainingOptions& wanted, const Clock& clock, const TrainingWatch& watch) {
-  EDGESPLAT_TRY_STATUS(wanted.validate());
+                             const TrainingOptions& options, const Clock& clock, const TrainingWatch& watch) {
+  EDGESPLAT_TRY_STATUS(options.validate());
   EDGESPLAT_TRY_STATUS(check(pictures, points));
-  TrainingOptions options = wanted;
-  if (options.max_gaussians == 0) options.max_gaussians = gaussians_for(pictures);
   const double extent = camera_extent(pictures);
   const double scale = kTrainingExtent_m / extent;
   mapping::IdAllocator ids(kOrigin);
   const HostTime begin = clock.now();
-  EDGESPLAT_TRY(auto optimiser, mapping::Optimiser::create(optimiser_options(options), clock));
+  const std::size_t budget = options.max_gaussians > 0 ? options.max_gaussians : gaussians_for(pictures);
+  EDGESPLAT_TRY(auto optimiser, mapping::Optimiser::create(optimiser_options(options, budget), clock));
   EDGESPLAT_TRY_STATUS(add_start(pictures, points, scale, options, ids, optimiser));
   const double start_s = to_seconds(clock.now() - begin);
   return Training(pictures, options, scale, std::move(optimiser), ids, clock, start_s).run(watch);

@@ -28,7 +28,8 @@ struct TrainingOptions {
   std::uint64_t iterations = 0;  ///< pictures looked at; 0: only `seconds` ends it
   double seconds = 0.0;          ///< of training; 0: only `iterations` ends it
   /// The map grows to this, by the same factor in equal times, until 0.8 of schedule.grow_until. 0: one for
-  /// every 64 pixels of the pictures, and no more than 300 000
+  /// every 48 pixels of the pictures, 300 000 at most, and 40 for every step that there is time for, but half
+  /// as many again as there are at the start
   std::size_t max_gaussians = 0;
   std::size_t max_start_points = 100'000;
   Densify densify = Densify::kGradient;
