@@ -71,7 +71,8 @@ TEST_F(PruneSwitchesTest, CloseForWhatNoPictureNeeds) {
   std::size_t needed = 0;
   for (const gaussian::GaussianId id : report.removed)
     needed += std::ranges::count(scene_.truth.ids, id) > 0 ? 1U : 0U;
-  EXPECT_LT(needed, kTrue / 10);
+  // Of two in one place either may become the one that is needed.
+  EXPECT_LT(needed, report.switched_off / 2);
 }
 
 TEST_F(PruneSwitchesTest, ArePartOfTheLossAndOfNothingElse) {
