@@ -44,7 +44,7 @@ struct SplatLanes {
     const float logit = opacity_logit[i];
     float apart = (logit - logit) + (m[0] - m[0]) + (m[1] - m[1]) + (m[2] - m[2]);
     EDGESPLAT_UNROLL
-    for (int k = 0; k < 4; ++k) apart += q[k] - q[k];
+    for (const float part : q) apart += part - part;
     float scale[3];
     EDGESPLAT_UNROLL
     for (int k = 0; k < 3; ++k) {
@@ -58,7 +58,7 @@ struct SplatLanes {
     if constexpr (kThin) {
       grown = growth[i];
       EDGESPLAT_UNROLL
-      for (int k = 0; k < 3; ++k) scale[k] *= grown;
+      for (float& axis : scale) axis *= grown;
     }
     float cov3d[6];
     covariance3d_of_scale(q, scale, cov3d);

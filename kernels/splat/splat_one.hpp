@@ -74,7 +74,7 @@ EDGESPLAT_HOST_DEVICE inline bool shape_of(const SplatInput& in, const CameraT<f
     const float grown = growth_of(camera, in.mean, scale, lot_of(in.mean[0], in.mean[1], in.mean[2]));
     if (grown == 0.0F) return false;
     EDGESPLAT_UNROLL
-    for (int k = 0; k < 3; ++k) scale[k] *= grown;
+    for (float& axis : scale) axis *= grown;
   }
   float cov3d[6];
   covariance3d_of_scale(in.quat, scale, cov3d);

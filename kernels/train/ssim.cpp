@@ -252,7 +252,7 @@ Sums run(const ColourPair& pair, float scale, float l1_scale, std::span<float> b
                           y0,      std::min(kSsimStripRows, pair.height_px - y0),
                           scale,   l1_scale,
                           by_drawn};
-    thread_local const auto buffers = std::make_unique<SsimBuffers>();
+    thread_local auto buffers = std::make_unique<SsimBuffers>();
     HWY_DYNAMIC_DISPATCH(run_strip)(strip, *buffers);
     Sums& part = parts[static_cast<std::size_t>(i)];
     for (int k = 0; k < kSsimOut; ++k) {

@@ -170,7 +170,8 @@ TEST(Render, AThinnedWallLooksLikeTheWholeOne) {
   wall.resize(kAcross * kAcross);
   test::Random random(5);
   for (std::size_t i = 0; i < wall.size(); ++i) {
-    const auto column = static_cast<float>(i % kAcross), row = static_cast<float>(i / kAcross);
+    const std::size_t line = i / kAcross;
+    const auto column = static_cast<float>(i % kAcross), row = static_cast<float>(line);
     const float jitter = static_cast<float>(random.uniform(-0.5, 0.5));
     wall.means_m[3 * i] = 0.02F * (column + jitter - kAcross / 2.0F);
     wall.means_m[3 * i + 1] = 0.02F * (row - kAcross / 2.0F);
