@@ -4,19 +4,29 @@
 
 #include <Eigen/LU>
 
-#include <cmath>
-#include <cstddef>
-
 namespace edgesplat::tracking {
+namespace {
+
+using Pixels = Eigen::Array<float, image::kPatchPixels, 1>;
+
+/// A patch's pixels as one array: sums over it are taken in vectors, several pixels at a time.
+Eigen::Map<const Pixels> pixels_of(const image::PatchValues& values) {
+  return Eigen::Map<const Pixels>(values.data());
+}
+
+}  // namespace
 
 PatchResidual::PatchResidual(const image::BorderedPatch& reference, const PatchNoise& noise)
     : noise_(noise), template_(image::make_template(reference)) {
-  moments_.setZero();
   for (float& value : template_.value) value += kToeGrey;
-  for (std::size_t i = 0; i < template_.value.size(); ++i) {
-    const Eigen::Vector4f functions(template_.dx[i], template_.dy[i], template_.value[i], 1.0F);
-    moments_ += functions * functions.transpose();
-  }
+  const auto dx = pixels_of(template_.dx), dy = pixels_of(template_.dy), value = pixels_of(template_.value);
+  const float xx = (dx * dx).sum(), xy = (dx * dy).sum(), xv = (dx * value).sum(), x = dx.sum();
+  const float yy = (dy * dy).sum(), yv = (dy * value).sum(), y = dy.sum();
+  const float vv = (value * value).sum(), v = value.sum();
+  moments_ << xx, xy, xv, x,  //
+      xy, yy, yv, y,          //
+      xv, yv, vv, v,          //
+      x, y, v, static_cast<float>(image::kPatchPixels);
 }
 
 // All derivatives of a patch's residuals are sums of four functions over its pixels: f = (g dx, g dy, g
@@ -28,20 +38,14 @@ bool PatchResidual::evaluate(const sensor::ImageGray8& picture, const PatchView&
                              PatchEquations& equations) const {
   image::PatchValues seen;
   if (!image::sample_patch(picture, view.centre_px, view.step, seen)) return false;
-  float with_dx = 0.0F, with_dy = 0.0F, with_value = 0.0F, with_one = 0.0F, squares = 0.0F;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const float r = seen[i] + kToeGrey - view.gain * template_.value[i];
-    with_dx += r * template_.dx[i];
-    with_dy += r * template_.dy[i];
-    with_value += r * template_.value[i];
-    with_one += r;
-    squares += r * r;
-  }
+  const Pixels r = pixels_of(seen) + kToeGrey - view.gain * pixels_of(template_.value);
   const Eigen::Vector4f scale(view.gain, view.gain, view.gain, 1.0F);
   const float weight = 1.0F / (noise_.pixel * noise_.pixel);
   const Eigen::Matrix4f m = weight * (scale * scale.transpose()).cwiseProduct(moments_);
   const Eigen::Vector4f b =
-      weight * scale.cwiseProduct(Eigen::Vector4f(with_dx, with_dy, with_value, with_one));
+      weight * scale.cwiseProduct(Eigen::Vector4f((r * pixels_of(template_.dx)).sum(),
+                                                  (r * pixels_of(template_.dy)).sum(),
+                                                  (r * pixels_of(template_.value)).sum(), r.sum()));
 
   const Eigen::Matrix2f patch_by_pixel = view.step.inverse();
   Eigen::Matrix<float, 4, 3> nuisance = Eigen::Matrix<float, 4, 3>::Zero();
@@ -60,7 +64,7 @@ bool PatchResidual::evaluate(const sensor::ImageGray8& picture, const PatchView&
   parameters(2, 6) = -1.0F;
   equations.information = (parameters.transpose() * reduced * parameters).cast<double>();
   equations.gradient = (parameters.transpose() * reduced_b).cast<double>();
-  equations.chi_squared = weight * squares - cb.dot(inner * cb);
+  equations.chi_squared = weight * r.square().sum() - cb.dot(inner * cb);
   return true;
 }
 
