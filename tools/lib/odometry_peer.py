@@ -16,6 +16,7 @@ import numpy as np
 
 import livox_recording
 
+MID360_RANGE_M = 40.0
 BODY_FROM_LIDAR = np.eye(4)
 BODY_FROM_LIDAR[:3, 3] = (-0.011, -0.02329, 0.04412)  # the simulated Mid-360 and its IMU
 
@@ -47,6 +48,8 @@ class KissIcp:
         from kiss_icp.pybind import kiss_icp_pybind
         config = KISSConfig()
         config.registration.max_num_threads = 1
+        if not path.is_dir():
+            config.data.max_range = MID360_RANGE_M  # its voxels are a hundredth of it
         config.mapping.voxel_size = config.data.max_range / 100.0
         config.data.deskew = not path.is_dir()
         self.vector = kiss_icp_pybind._Vector3dVector
@@ -111,10 +114,13 @@ class SmallGicp:
 
 
 class RkoLio:
+    """With what its documentation advises for sparse LiDARs and small places; its defaults are for cars."""
+
     def __init__(self, path):
         from rko_lio.config import LIOConfig
         from rko_lio.lio import LIO
-        self.lio = LIO(LIOConfig(max_num_threads=1, min_range=0.3, initialization_phase=True))
+        self.lio = LIO(LIOConfig(max_num_threads=1, min_range=0.3, max_range=MID360_RANGE_M, voxel_size=0.5, double_downsample=False,
+                                 initialization_phase=True))
         from rko_lio.rko_lio_pybind import _Vector3sVector, _VectorInt64
         self.types = _Vector3sVector, _VectorInt64
         self.imu = livox_recording.read_imu(path)
