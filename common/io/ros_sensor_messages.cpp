@@ -139,6 +139,7 @@ Result<RosPointCloud> decode_ros_point_cloud(RosEncoding encoding, std::span<con
   cloud.data = reader.read_bytes();
   if (!reader.ok() || is_big_endian != 0 || !fits(cloud))
     return does_not_fit("sensor_msgs/PointCloud2", payload.size());
+  if (cloud.width == 0) cloud.height = 0;  // of rows without points there may be 4e9
   return cloud;
 }
 

@@ -68,7 +68,8 @@ struct RosPointField {
   std::uint32_t count = 1;
 };
 
-/// sensor_msgs/PointCloud2, little-endian; every point with every field lies in `data`.
+/// sensor_msgs/PointCloud2, little-endian; every point with every field lies in `data`. Without points it has
+/// no rows either.
 struct RosPointCloud {
   RosHeader header;
   std::uint32_t height = 0;

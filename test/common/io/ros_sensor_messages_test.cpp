@@ -105,9 +105,16 @@ TEST_P(RosSensorMessages, PointCloudsWhosePointsAreNotThereAreRefused) {
   cloud = two_points();
   cloud.big_endian = true;
   EXPECT_FALSE(decodes(cloud));
-  cloud = two_points();
+}
+
+TEST_P(RosSensorMessages, ACloudWithoutPointsHasNoRowsHoweverManyItSays) {
+  SampleCloud cloud = two_points();
   cloud.width = 0;
-  EXPECT_TRUE(decodes(cloud));
+  cloud.height = 0xFFFF'FFFFU;
+  const auto decoded = decode_ros_point_cloud(GetParam(), cloud_message(GetParam(), kStamp_ns, cloud));
+  ASSERT_TRUE(decoded.has_value()) << decoded.error().context;
+  EXPECT_EQ(decoded->width, 0U);
+  EXPECT_EQ(decoded->height, 0U) << "whoever walks through its rows would do so for seconds";
 }
 
 TEST_P(RosSensorMessages, Images) {
