@@ -47,9 +47,9 @@ gaussian::GaussianCloud gaussians_of_points(const io::PointCloud& points, const 
                                             mapping::IdAllocator& ids) {
   std::vector<Eigen::Vector3f> means;
   std::vector<std::size_t> rows;
-  const std::size_t step = std::max(
-      std::size_t{1}, (points.points_m.size() + options.most - 1) / std::max(options.most, std::size_t{1}));
-  for (std::size_t i = 0; i < points.points_m.size(); i += step) {
+  const std::size_t count = std::min(points.points_m.size(), options.most);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = k * points.points_m.size() / count;
     if (!points.points_m[i].allFinite()) continue;
     means.push_back(points.points_m[i]);
     rows.push_back(i);

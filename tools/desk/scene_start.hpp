@@ -18,9 +18,9 @@ namespace edgesplat::desk {
 [[nodiscard]] Result<io::PointCloud> triangulate(std::span<const ScenePicture* const> pictures);
 
 struct StartOptions {
-  double extent = 1.0;         ///< of the scene (camera_extent())
-  std::size_t most = 100'000;  ///< Gaussians, evenly taken among the points
-  float opacity = 0.1F;        ///< 3DGS's; 0.01..0.9
+  double extent = 1.0;        ///< of the scene (camera_extent())
+  std::size_t most = 40'000;  ///< Gaussians, evenly taken among the points
+  float opacity = 0.1F;       ///< 3DGS's; 0.01..0.9
 };
 /// A Gaussian a point: round, as wide as its three nearest neighbours are far. Points without colour are
 /// grey.

@@ -122,7 +122,8 @@ class Training {
     const double now = progress();
     EDGESPLAT_TRY_STATUS(optimiser_.raise_sh_degree(schedule_.sh_degree(now)));
     optimiser_.set_rates(mapping::scaled(rates_, schedule_.rate_share(now)));
-    const int shrink = schedule_.shrink(now);
+    const bool coarse = state_.iterations < options_.coarse_rounds * pictures_.size();
+    const int shrink = coarse ? schedule_.shrink(now) : 1;
     if (shrink < shrink_) pictures_.forget_small();
     shrink_ = shrink;
     return {};

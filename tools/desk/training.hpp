@@ -31,11 +31,12 @@ struct TrainingOptions {
   /// every 48 pixels of the pictures, 300 000 at most, and 40 for every step that there is time for, but half
   /// as many again as there are at the start
   std::size_t max_gaussians = 0;
-  std::size_t max_start_points = 100'000;
+  std::size_t max_start_points = 40'000;  ///< of the scene's points, evenly taken; growth makes the others
   Densify densify = Densify::kGradient;
   std::uint64_t densify_every = 100;  ///< iterations
   /// What is best on simulated and real scenes of this size at 7 to 60 s (docs/benchmarks.md).
   mapping::ScheduleOptions schedule{.coarse_until = 0.25, .cool_from = 0.5};
+  std::size_t coarse_rounds = 15;  ///< small pictures say nothing more after so many looks at each of them
   mapping::ViewOrderOptions views;
   float rate_factor = 2.0F;     ///< of all learning rates; short trainings want more, 0.1..10
   float depth_factor = 0.0F;    ///< of the depth loss, where pictures have depth, 0 (off)..1
