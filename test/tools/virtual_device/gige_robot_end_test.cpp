@@ -14,7 +14,9 @@ using namespace std::chrono_literals;
 GigeServerOptions small_camera(GigeVocabulary vocabulary = GigeVocabulary::kSfnc) {
   GigeServerOptions options;
   options.address = test::own_loopback_address();
-  options.model = {.width_px = 160, .height_px = 120, .serial = "T-1", .vocabulary = vocabulary};
+  options.model.width_px = 160;
+  options.model.height_px = 120;
+  options.model.vocabulary = vocabulary;  // the serial number comes from the address: each test has its own
   return options;
 }
 
