@@ -38,7 +38,7 @@ struct OdometryJob {
   std::optional<std::filesystem::path> imu;  ///< EuRoC's CSV, on the scans' time base
   std::optional<replay::BagRig> rig;         ///< instead of the recording's own; needed for one of ROS
   tracking::TrackingConfig tracking;
-  ScanTiming timing = ScanTiming::kAuto;
+  ScanTiming timing = ScanTiming::kInstant;
   OdometryMode mode = OdometryMode::kLidarInertialVisual;
 };
 

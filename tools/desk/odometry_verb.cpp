@@ -30,7 +30,7 @@ struct OdometryOptions {
   std::string groups;
   std::vector<std::string> settings;
   OdometryMode mode = OdometryMode::kLidarInertialVisual;
-  ScanTiming timing = ScanTiming::kAuto;
+  ScanTiming timing = ScanTiming::kInstant;
   bool json = false;
 };
 
@@ -147,8 +147,9 @@ void add_odometry_verb(CLI::App& app, VerbContext& context) {
   verb->add_option("--out", options->out, "Trajectory to write, TUM format")->required();
   verb->add_option(
           "--timing", options->timing,
-          "When a scan's rays were fired: auto (azimuth for KITTI's raw scans), instant, or azimuth: in one "
-          "turn around its stamp (HDL-64E)")
+          "When the rays of scans without times were fired: instant (default: all at the stamp, as KISS-ICP "
+          "and small_gicp take them), azimuth: in one turn around it (HDL-64E), or auto: azimuth for KITTI's "
+          "raw scans, whose points then fit better")
       ->transform(
           CLI::CheckedTransformer(std::map<std::string, ScanTiming>{{"auto", ScanTiming::kAuto},
                                                                     {"instant", ScanTiming::kInstant},

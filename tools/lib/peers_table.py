@@ -71,7 +71,7 @@ def run_json(command, **options):
 
 def run_ours(edgesplat, mode, scans, trajectory):
     last_core = sorted(os.sched_getaffinity(0))[-1]
-    run = run_json([edgesplat, "odometry", "--lidar", scans, "--mode", mode, "--out", trajectory, "--json"],
+    run = run_json([edgesplat, "odometry", "--lidar", scans, "--timing", "auto", "--mode", mode, "--out", trajectory, "--json"],
                    preexec_fn=lambda: os.sched_setaffinity(0, {last_core}))
     return run["track_cpu_ms"]
 
