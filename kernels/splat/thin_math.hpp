@@ -15,10 +15,17 @@ namespace edgesplat::splat {
 /// that stay cover as much as all did. Which ones stay is drawn from their means: the same in every picture,
 /// and one by one as the camera comes nearer.
 
+EDGESPLAT_HOST_DEVICE inline std::uint32_t bits_of(float value) {
+#ifdef __CUDA_ARCH__
+  return __float_as_uint(value);
+#else
+  return std::bit_cast<std::uint32_t>(value);
+#endif
+}
+
 /// A number in [0, 1) that belongs to a mean.
 EDGESPLAT_HOST_DEVICE inline float lot_of(float x, float y, float z) {
-  const std::uint32_t bits[3] = {std::bit_cast<std::uint32_t>(x), std::bit_cast<std::uint32_t>(y),
-                                 std::bit_cast<std::uint32_t>(z)};
+  const std::uint32_t bits[3] = {bits_of(x), bits_of(y), bits_of(z)};
   std::uint32_t h = bits[0] * 0x9E3779B1U;
   h = ((h ^ (h >> 15U)) + bits[1]) * 0x85EBCA77U;
   h = ((h ^ (h >> 13U)) + bits[2]) * 0xC2B2AE3DU;
