@@ -8,11 +8,6 @@
 #include <utility>
 
 namespace edgesplat::io::mcap {
-namespace {
-
-constexpr std::size_t kOpenBytesBudget = std::size_t{64} << 20U;
-
-}  // namespace
 
 MessageMerge::MessageMerge(const ByteSource& source, const Index& index, McapSelection selection)
     : source_(source), index_(index), selection_(std::move(selection)), report_(index.report) {
@@ -35,13 +30,6 @@ bool MessageMerge::is_selected(const ChunkPlace& place) const {
     // Messages of a channel that was never defined are looked at, so that they are counted as lost.
     return channels_.contains(id) || !index_.channels.contains(id);
   });
-}
-
-bool MessageMerge::is_later(const std::unique_ptr<OpenChunk>& a, const std::unique_ptr<OpenChunk>& b) {
-  const auto key = [](const OpenChunk& chunk) {
-    return std::tuple(chunk.messages[chunk.next].log_time_ns, chunk.place->offset);
-  };
-  return key(*a) > key(*b);
 }
 
 void MessageMerge::skip_chunk(const ChunkPlace& place, const Error& error) {
@@ -77,80 +65,38 @@ Status MessageMerge::open_chunk(const ChunkPlace& place) {
   }
   keep_selected(chunk->messages);
   if (chunk->messages.empty()) return {};
-  chunk->records_bytes = chunk->records.size();
-  open_bytes_ += chunk->records_bytes;
-  open_.push_back(std::move(chunk));
-  std::ranges::push_heap(open_, is_later);
+  open_.add(std::move(chunk));
   return {};
 }
 
 void MessageMerge::open_due_chunks() {
   while (next_pending_ < pending_.size()) {
     const ChunkPlace& place = *pending_[next_pending_];
-    if (!open_.empty()) {
-      const auto& front = *open_.front();
-      if (to_ns(place.first_log_time) > front.messages[front.next].log_time_ns) return;
-    }
+    if (!open_.empty() && to_ns(place.first_log_time) > std::get<0>(open_.front().key())) return;
     ++next_pending_;
     if (auto opened = open_chunk(place); !opened) skip_chunk(place, opened.error());
-    give_back_memory();
+    open_.give_back_memory();
   }
-}
-
-void MessageMerge::give_back_memory() {
-  while (open_bytes_ > kOpenBytesBudget) {
-    OpenChunk* furthest = nullptr;
-    std::size_t loaded = 0;
-    for (const auto& chunk : open_) {
-      if (chunk->records.empty()) continue;
-      ++loaded;
-      if (furthest == nullptr ||
-          chunk->messages[chunk->next].log_time_ns >= furthest->messages[furthest->next].log_time_ns) {
-        furthest = chunk.get();
-      }
-    }
-    if (loaded <= 1) return;
-    open_bytes_ -= furthest->records.size();
-    furthest->records = {};
-  }
-}
-
-void MessageMerge::put_back_current() {
-  if (!current_) return;
-  if (current_->next < current_->messages.size()) {
-    open_.push_back(std::move(current_));
-    std::ranges::push_heap(open_, is_later);
-  } else {
-    open_bytes_ -= current_->records.size();
-  }
-  current_.reset();
 }
 
 std::optional<McapMessage> MessageMerge::next() {
-  put_back_current();
+  open_.put_back_current();
   while (true) {
     open_due_chunks();
     if (open_.empty()) return std::nullopt;
-    std::ranges::pop_heap(open_, is_later);
-    current_ = std::move(open_.back());
-    open_.pop_back();
-    if (!current_->records.empty()) break;
-    auto records = load_records(source_, *current_->place);
-    if (records && records->size() != current_->records_bytes) {
-      records = fail(Errc::kIo, "the file changed while it was read");
-    }
-    if (records) {
-      current_->records = std::move(*records);
-      open_bytes_ += current_->records.size();
-      give_back_memory();
+    OpenChunk& chunk = open_.take_front();
+    if (!chunk.records.empty()) break;
+    const Status loaded = open_.restore_current(load_records(source_, *chunk.place));
+    if (loaded) {
+      open_.give_back_memory();
       break;
     }
-    skip_chunk(*current_->place, records.error());
-    current_.reset();
+    skip_chunk(*chunk.place, loaded.error());
+    open_.forget_current();
   }
-  const MessagePlace& place = current_->messages[current_->next++];
-  const auto content =
-      std::span<const std::byte>(current_->records).subspan(place.offset, place.content_bytes);
+  OpenChunk& current = open_.current();
+  const MessagePlace& place = current.messages[current.next++];
+  const auto content = std::span<const std::byte>(current.records).subspan(place.offset, place.content_bytes);
   const auto header = read_message_header(content);
   McapMessage message;
   message.channel = &index_.channels.find(place.channel)->second;

@@ -4,12 +4,13 @@
 
 #include "common/io/mcap_chunk_reader.hpp"
 #include "common/io/mcap_reader.hpp"
+#include "common/io/open_chunks.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <vector>
 
 namespace edgesplat::io::mcap {
@@ -31,14 +32,14 @@ class MessageMerge {
     std::size_t records_bytes = 0;
     std::vector<MessagePlace> messages;  ///< selected ones, by time
     std::size_t next = 0;
+    [[nodiscard]] std::tuple<std::int64_t, std::uint64_t> key() const {
+      return {messages[next].log_time_ns, place->offset};
+    }
   };
-  static bool is_later(const std::unique_ptr<OpenChunk>& a, const std::unique_ptr<OpenChunk>& b);
   [[nodiscard]] bool is_selected(const ChunkPlace& place) const;
   void open_due_chunks();
   [[nodiscard]] Status open_chunk(const ChunkPlace& place);
   void keep_selected(std::vector<MessagePlace>& messages);
-  void give_back_memory();
-  void put_back_current();
   void skip_chunk(const ChunkPlace& place, const Error& error);
 
   const ByteSource& source_;
@@ -47,9 +48,7 @@ class MessageMerge {
   std::set<McapChannelId> channels_;        ///< selected
   std::vector<const ChunkPlace*> pending_;  ///< by first log time
   std::size_t next_pending_ = 0;
-  std::vector<std::unique_ptr<OpenChunk>> open_;  ///< heap: the chunk with the earliest message in front
-  std::unique_ptr<OpenChunk> current_;            ///< lent its bytes to the caller
-  std::size_t open_bytes_ = 0;
+  OpenChunks<OpenChunk> open_;
   McapReadReport report_;
 };
 

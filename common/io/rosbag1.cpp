@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/io/rosbag1.hpp"
 
+#include "common/io/open_chunks.hpp"
 #include "common/io/rosbag1_index.hpp"
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace {
 
 using rosbag1::ChunkPlace;
 using rosbag1::MessagePlace;
-
-constexpr std::size_t kOpenBytesBudget = std::size_t{64} << 20U;
 
 /// Walks the chunks in time order: one is opened when its first message is due; while more than the budget is
 /// open, those whose next message is furthest away give their bytes back.
@@ -51,16 +50,10 @@ class Rosbag1 final : public BagSource {
       return {messages[next].time_ns, place->offset};
     }
   };
-  static bool is_later(const std::unique_ptr<OpenChunk>& a, const std::unique_ptr<OpenChunk>& b) {
-    return a->key() > b->key();
-  }
   void start(std::vector<bool> wanted);
-  void put_back_current();
   void open_due_chunks();
   [[nodiscard]] Status open_chunk(const ChunkPlace& place);
   void keep_selected(std::vector<MessagePlace>& messages, const ChunkPlace& place);
-  [[nodiscard]] Status load_again(OpenChunk& chunk);
-  void give_back_memory();
   void skip_chunk(const ChunkPlace& place, const Error& error) {
     rosbag1::add_problem(report_, error.context + " (byte " + std::to_string(place.offset) + ")");
   }
@@ -72,9 +65,7 @@ class Rosbag1 final : public BagSource {
   std::vector<bool> wanted_;                ///< by topic
   std::vector<const ChunkPlace*> pending_;  ///< by first time
   std::size_t next_pending_ = 0;
-  std::vector<std::unique_ptr<OpenChunk>> open_;  ///< heap: the chunk with the earliest message in front
-  std::unique_ptr<OpenChunk> current_;            ///< lent its bytes to the caller
-  std::size_t open_bytes_ = 0;
+  OpenChunks<OpenChunk> open_;
   BagReport report_;
 };
 
@@ -85,9 +76,7 @@ void Rosbag1::start(std::vector<bool> wanted) {
   std::ranges::sort(pending_, {},
                     [](const ChunkPlace* place) { return std::tuple(place->first_ns, place->offset); });
   next_pending_ = 0;
-  open_.clear();
-  current_.reset();
-  open_bytes_ = 0;
+  open_ = {};
   report_ = index_.report;
 }
 
@@ -116,76 +105,38 @@ Status Rosbag1::open_chunk(const ChunkPlace& place) {
   chunk->messages = std::move(contents.messages);
   keep_selected(chunk->messages, place);
   if (chunk->messages.empty()) return {};
-  chunk->records_bytes = chunk->records.size();
-  open_bytes_ += chunk->records_bytes;
-  open_.push_back(std::move(chunk));
-  std::ranges::push_heap(open_, is_later);
+  open_.add(std::move(chunk));
   return {};
 }
 
 void Rosbag1::open_due_chunks() {
   while (next_pending_ < pending_.size()) {
     const ChunkPlace& place = *pending_[next_pending_];
-    if (!open_.empty() && place.first_ns > std::get<0>(open_.front()->key())) return;
+    if (!open_.empty() && place.first_ns > std::get<0>(open_.front().key())) return;
     ++next_pending_;
     if (const Status opened = open_chunk(place); !opened) skip_chunk(place, opened.error());
-    give_back_memory();
+    open_.give_back_memory();
   }
-}
-
-void Rosbag1::give_back_memory() {
-  while (open_bytes_ > kOpenBytesBudget) {
-    OpenChunk* furthest = nullptr;
-    std::size_t loaded = 0;
-    for (const auto& chunk : open_) {
-      if (chunk->records.empty()) continue;
-      ++loaded;
-      if (furthest == nullptr || chunk->key() >= furthest->key()) furthest = chunk.get();
-    }
-    if (loaded <= 1) return;
-    open_bytes_ -= furthest->records.size();
-    furthest->records = {};
-  }
-}
-
-void Rosbag1::put_back_current() {
-  if (!current_) return;
-  if (current_->next < current_->messages.size()) {
-    open_.push_back(std::move(current_));
-    std::ranges::push_heap(open_, is_later);
-  } else {
-    open_bytes_ -= current_->records.size();
-  }
-  current_.reset();
-}
-
-Status Rosbag1::load_again(OpenChunk& chunk) {
-  if (!chunk.records.empty()) return {};
-  EDGESPLAT_TRY(auto records, rosbag1::load_chunk(*source_, chunk.place->offset));
-  if (records.size() != chunk.records_bytes) return fail(Errc::kIo, "the file changed while it was read");
-  chunk.records = std::move(records);
-  open_bytes_ += chunk.records.size();
-  return {};
 }
 
 std::optional<BagMessage> Rosbag1::next() {
-  put_back_current();
+  open_.put_back_current();
   while (true) {
     open_due_chunks();
     if (open_.empty()) return std::nullopt;
-    std::ranges::pop_heap(open_, is_later);
-    current_ = std::move(open_.back());
-    open_.pop_back();
-    const Status loaded = load_again(*current_);
+    OpenChunk& chunk = open_.take_front();
+    if (!chunk.records.empty()) break;
+    const Status loaded = open_.restore_current(rosbag1::load_chunk(*source_, chunk.place->offset));
     if (loaded) break;
-    skip_chunk(*current_->place, loaded.error());
-    current_.reset();
+    skip_chunk(*chunk.place, loaded.error());
+    open_.forget_current();
   }
-  give_back_memory();
-  const MessagePlace& place = current_->messages[current_->next++];
+  open_.give_back_memory();
+  OpenChunk& current = open_.current();
+  const MessagePlace& place = current.messages[current.next++];
   ++report_.messages_read;
   return BagMessage{index_.topic_of.at(place.connection), host_time_from_ns(place.time_ns),
-                    std::span<const std::byte>(current_->records).subspan(place.offset, place.bytes)};
+                    std::span<const std::byte>(current.records).subspan(place.offset, place.bytes)};
 }
 
 Result<std::unique_ptr<BagSource>> open_source(std::unique_ptr<ByteSource> source) {
