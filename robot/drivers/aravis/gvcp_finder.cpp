@@ -3,6 +3,7 @@
 #include "robot/drivers/aravis/gvcp_finder.hpp"
 
 #include "common/base/local_address.hpp"
+#include "common/base/udp_send.hpp"
 #include "common/thread/stop_fd.hpp"
 
 #include <arpa/inet.h>
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 
 namespace edgesplat::aravis {
 namespace {
@@ -40,23 +40,7 @@ bool send_to(int socket, in_addr to, in_addr source, std::span<const std::byte> 
   address.sin_family = AF_INET;
   address.sin_port = htons(kGvcpPort);
   address.sin_addr = to;
-  iovec content{const_cast<std::byte*>(bytes.data()), bytes.size()};
-  alignas(cmsghdr) std::array<std::byte, CMSG_SPACE(sizeof(in_pktinfo))> control{};
-  msghdr header{};
-  header.msg_name = &address;
-  header.msg_namelen = sizeof(address);
-  header.msg_iov = &content;
-  header.msg_iovlen = 1;
-  header.msg_control = control.data();
-  header.msg_controllen = control.size();
-  cmsghdr* note = CMSG_FIRSTHDR(&header);
-  note->cmsg_level = IPPROTO_IP;
-  note->cmsg_type = IP_PKTINFO;
-  note->cmsg_len = CMSG_LEN(sizeof(in_pktinfo));
-  in_pktinfo info{};
-  info.ipi_spec_dst = source;  // 0.0.0.0: as the route says
-  std::memcpy(CMSG_DATA(note), &info, sizeof(info));
-  return ::sendmsg(socket, &header, MSG_NOSIGNAL | MSG_DONTWAIT) == static_cast<ssize_t>(bytes.size());
+  return send_datagram(socket, address, source, bytes);
 }
 
 }  // namespace

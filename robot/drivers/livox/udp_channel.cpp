@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/drivers/livox/udp_channel.hpp"
 
+#include "common/base/udp_send.hpp"
 #include "robot/drivers/livox/port_holder.hpp"
 
 #include <arpa/inet.h>
@@ -159,25 +160,7 @@ bool UdpChannel::send(const Endpoint& to, in_addr source, std::span<const std::b
   address.sin_family = AF_INET;
   address.sin_port = htons(to.port);
   std::memcpy(&address.sin_addr, to.ip.data(), to.ip.size());
-  iovec content{const_cast<std::byte*>(bytes.data()), bytes.size()};
-  alignas(cmsghdr) std::array<std::byte, CMSG_SPACE(sizeof(in_pktinfo))> control{};
-  msghdr header{};
-  header.msg_name = &address;
-  header.msg_namelen = sizeof(address);
-  header.msg_iov = &content;
-  header.msg_iovlen = 1;
-  if (source.s_addr != INADDR_ANY) {
-    header.msg_control = control.data();
-    header.msg_controllen = control.size();
-    cmsghdr* note = CMSG_FIRSTHDR(&header);
-    note->cmsg_level = IPPROTO_IP;
-    note->cmsg_type = IP_PKTINFO;
-    note->cmsg_len = CMSG_LEN(sizeof(in_pktinfo));
-    in_pktinfo info{};
-    info.ipi_spec_dst = source;
-    std::memcpy(CMSG_DATA(note), &info, sizeof(info));
-  }
-  return ::sendmsg(fd(), &header, MSG_NOSIGNAL | MSG_DONTWAIT) == static_cast<ssize_t>(bytes.size());
+  return send_datagram(fd(), address, source, bytes);
 }
 
 void UdpChannel::note_drops(std::uint32_t total, TransportCounters& counters) {
