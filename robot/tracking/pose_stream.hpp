@@ -25,7 +25,7 @@ struct StreamedPose {
 /// The pose at the IMU's rate, for control: the newest tracked state carried through the samples that came
 /// since, by the filter's own equations. Tracking works on what is up to a group and an image's way old; its
 /// result moves the stream by what the filter learnt, so the stream is not smooth where the filter is not.
-/// Thread-safe. A sample costs some 100 ns, a correction that for each sample since its stamp.
+/// Thread-safe. A sample costs one step, a correction one for each sample since its stamp.
 class PoseStream {
  public:
   struct Config {
