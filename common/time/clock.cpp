@@ -2,7 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/time/clock.hpp"
 
+#include <ctime>
+
 namespace edgesplat {
+
+std::int64_t wall_clock_ns() {
+  timespec now{};
+  (void)::clock_gettime(CLOCK_REALTIME, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
 
 HostTime SteadyClock::now() const {
   return HostTime(

@@ -8,6 +8,9 @@
 
 namespace edgesplat {
 
+/// CLOCK_REALTIME, ns: for what the system or a device stamps by it. It jumps; nothing is timed by it.
+[[nodiscard]] std::int64_t wall_clock_ns();
+
 /// Where a program gets its time from. Injected everywhere; nothing calls a system clock by itself.
 /// Thread-safe.
 class Clock {

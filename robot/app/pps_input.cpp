@@ -3,11 +3,9 @@
 #include "robot/app/pps_input.hpp"
 
 #include "common/log/log.hpp"
+#include "common/thread/pause.hpp"
 
-#include <condition_variable>
-#include <ctime>
 #include <memory>
-#include <mutex>
 #include <utility>
 
 namespace edgesplat::app {
@@ -17,19 +15,6 @@ constexpr double kWait_s = 0.25;  // the kernel's wait does not hear a stop
 constexpr auto kRetry = std::chrono::seconds(1);
 constexpr auto kSilence = std::chrono::milliseconds(2500);
 constexpr std::int64_t kOldest_ns = 1'000'000'000;
-
-std::int64_t wall_ns() {
-  timespec now{};
-  (void)::clock_gettime(CLOCK_REALTIME, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
-void pause(const std::stop_token& stop, nanoseconds how_long) {
-  std::mutex mutex;
-  std::condition_variable_any never;
-  std::unique_lock lock(mutex);
-  (void)never.wait_for(lock, stop, how_long, [] { return false; });
-}
 
 }  // namespace
 
@@ -46,7 +31,7 @@ Result<PpsInput> PpsInput::open(const robot_config::PpsSettings& config, const C
         if (!edge) device->reset();
         return edge;
       },
-      clock, wall_ns);
+      clock, wall_clock_ns);
 }
 
 void PpsInput::receive(const std::stop_token& stop, const Sink& sink) {
@@ -56,7 +41,7 @@ void PpsInput::receive(const std::stop_token& stop, const Sink& sink) {
     if (!edge) {
       ++counters_.failures;
       note(false, edge.error().context.c_str());
-      pause(stop, kRetry);
+      thread::pause(stop, kRetry);
     } else if (*edge) {
       heard = clock_->now();
       on_edge(**edge, sink);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/app/replay_input.hpp"
 
-#include <condition_variable>
-#include <mutex>
+#include "common/thread/pause.hpp"
+
 #include <utility>
 
 namespace edgesplat::app {
@@ -13,10 +13,7 @@ bool ReplayInput::wait_until_due(HostTime arrival, HostTime started, std::stop_t
   const HostTime due = started + from_seconds(to_seconds(recorded) / speed_);
   const nanoseconds wait = due - clock_.now();
   if (wait <= nanoseconds(0)) return !stop.stop_requested();
-  std::mutex mutex;
-  std::condition_variable_any never;
-  std::unique_lock lock(mutex);
-  never.wait_for(lock, stop, wait, [] { return false; });
+  thread::pause(stop, wait);
   return !stop.stop_requested();
 }
 

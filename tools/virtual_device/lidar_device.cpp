@@ -14,7 +14,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <string>
 #include <system_error>
 
@@ -55,12 +54,6 @@ std::unique_ptr<VirtualUnit> make_unit(const LidarDeviceConfig& config, std::int
   return std::make_unique<Sdk2Unit>(config.unit, now_ns);
 }
 
-std::int64_t wall_ns() {
-  timespec now{};
-  (void)::clock_gettime(CLOCK_REALTIME, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<LidarDevice>> LidarDevice::start(const LidarDeviceConfig& config, const Clock& clock) {
@@ -80,7 +73,7 @@ LidarDevice::LidarDevice(const LidarDeviceConfig& config, const Clock& clock,
       noise_(config.seed, simulate::NoisePurpose::kStreamFault, 1) {
   std::ranges::stable_sort(faults_, {}, &LidarFault::at_s);
   // A pulse a second and UTC for it are the real ones; a PTP master is the recording's, see begin().
-  if (config.unit.clock.sync == UnitSync::kPulse) unit_->clock().set_epoch(wall_ns() - now_ns());
+  if (config.unit.clock.sync == UnitSync::kPulse) unit_->clock().set_epoch(wall_clock_ns() - now_ns());
 }
 
 LidarDevice::~LidarDevice() = default;

@@ -3,10 +3,9 @@
 #include "robot/drivers/aravis/gige_camera.hpp"
 
 #include "common/log/log.hpp"
+#include "common/thread/pause.hpp"
 
 #include <algorithm>
-#include <condition_variable>
-#include <mutex>
 #include <string>
 #include <utility>
 
@@ -60,7 +59,7 @@ std::optional<sensor::Measurement> GigeCamera::receive(const std::stop_token& st
         if (clock_.now() >= retry_at_) {
           try_open(stop);
         } else {
-          pause(stop, std::min(left, retry_at_ - clock_.now()));
+          thread::pause(stop, std::min(left, retry_at_ - clock_.now()));
         }
         break;
       case State::kSettling:
@@ -243,7 +242,7 @@ void GigeCamera::look_after(const std::stop_token& stop) {
 void GigeCamera::wait_for_return(const std::stop_token& stop, nanoseconds limit) {
   const Whereabouts where = locate(stop);
   if (where == Whereabouts::kAway) {
-    pause(stop, std::min<nanoseconds>(kSearchPause, limit));
+    thread::pause(stop, std::min<nanoseconds>(kSearchPause, limit));
   } else {
     close(where != Whereabouts::kElsewhere);
   }
@@ -262,13 +261,6 @@ void GigeCamera::note_recovery() {
   ++session_.recoveries;
   EDGESPLAT_LOG_INFO("camera", "frames come again", "after_s", to_seconds(outage));
   outage_since_.reset();
-}
-
-void GigeCamera::pause(const std::stop_token& stop, nanoseconds how_long) {
-  std::mutex mutex;
-  std::condition_variable_any never;
-  std::unique_lock lock(mutex);
-  (void)never.wait_for(lock, stop, how_long, [] { return false; });
 }
 
 StreamStatistics GigeCamera::statistics() const {

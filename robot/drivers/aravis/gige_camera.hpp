@@ -81,7 +81,6 @@ class GigeCamera {
   void note_outage(std::uint64_t& counter, const std::string& why);
   void note_recovery();
   [[nodiscard]] nanoseconds patience() const;
-  static void pause(const std::stop_token& stop, nanoseconds how_long);
 
   GigeCameraConfig config_;
   const Clock& clock_;

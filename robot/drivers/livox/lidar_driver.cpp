@@ -9,20 +9,12 @@
 
 #include <algorithm>
 #include <cstring>
-#include <ctime>
 #include <utility>
 
 namespace edgesplat::livox {
 namespace {
 
 constexpr nanoseconds kLongestWait = std::chrono::milliseconds(500);
-
-/// What the pulses on a LiDAR's line are counted by.
-std::int64_t wall_ns() {
-  timespec now{};
-  (void)::clock_gettime(CLOCK_REALTIME, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
 
 const char* clock_name(sensor::StampSource source) {
   switch (source) {
@@ -106,7 +98,7 @@ void LidarDriver::on_pulse(HostTime edge, std::int64_t utc_ns) {
 void LidarDriver::tell_time(HostTime now) {
   if (!session_->config().feeds_utc) return;
   if (!sees_pulses_) {
-    session_->utc_feed().follow_wall_clock(now, wall_ns());
+    session_->utc_feed().follow_wall_clock(now, wall_clock_ns());
     return;
   }
   std::optional<Pulse> pulse;

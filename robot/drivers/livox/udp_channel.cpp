@@ -3,6 +3,7 @@
 #include "robot/drivers/livox/udp_channel.hpp"
 
 #include "common/base/udp_send.hpp"
+#include "common/time/clock.hpp"
 #include "robot/drivers/livox/port_holder.hpp"
 
 #include <arpa/inet.h>
@@ -18,12 +19,6 @@ namespace edgesplat::livox {
 namespace {
 
 constexpr std::int64_t kOldest_ns = 1'000'000'000;  // an older stamp is a wall clock that was set meanwhile
-
-std::int64_t wall_ns() {
-  timespec now{};
-  ::clock_gettime(CLOCK_REALTIME, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
 
 struct KernelNotes {
   std::int64_t wall_ns = 0;  ///< 0 = no stamp
@@ -135,7 +130,7 @@ Result<std::span<const Datagram>> UdpChannel::receive(const Clock& clock, Transp
     return fail(Errc::kIo, "cannot read " + channel_name(channel_) +
                                " packets: " + std::generic_category().message(errno));
   }
-  const std::int64_t wall_now_ns = wall_ns();
+  const std::int64_t wall_now_ns = wall_clock_ns();
   const HostTime now = clock.now();
   std::size_t count = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(received); ++i) {

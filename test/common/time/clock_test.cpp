@@ -26,6 +26,14 @@ TEST(Time, SecondsRoundToTheNearestNanosecond) {
   EXPECT_DOUBLE_EQ(to_seconds(nanoseconds(250'000'000)), 0.25);
 }
 
+TEST(WallClock, IsTheSystems) {
+  const auto before = std::chrono::system_clock::now();
+  const std::int64_t now_ns = wall_clock_ns();
+  const auto after = std::chrono::system_clock::now();
+  EXPECT_GE(now_ns, nanoseconds(before.time_since_epoch()).count());
+  EXPECT_LE(now_ns, nanoseconds(after.time_since_epoch()).count());
+}
+
 TEST(VirtualClock, StandsStillAndNeverGoesBack) {
   VirtualClock clock(host_time_from_ns(10));
   EXPECT_EQ(to_ns(clock.now()), 10);
