@@ -12,6 +12,13 @@ namespace {
 
 constexpr VoxelKey kEmpty = ~VoxelKey{0};  // 63 bits are used: no key has this value
 
+/// The lower wins a cell. An odd factor makes it a permutation: no two points draw the same.
+std::uint32_t lot(std::size_t point) {
+  std::uint32_t bits = static_cast<std::uint32_t>(point) * 0x9E3779B9U;
+  bits ^= bits >> 15U;
+  return bits * 0x85EBCA6BU;
+}
+
 }  // namespace
 
 std::span<const std::uint32_t> VoxelDownsampler::run(std::span<const Eigen::Vector3f> points, float edge_m) {
@@ -19,6 +26,7 @@ std::span<const std::uint32_t> VoxelDownsampler::run(std::span<const Eigen::Vect
   kept_.clear();
   if (points.empty()) return kept_;
   table_.assign(std::bit_ceil(points.size() * 2), kEmpty);
+  place_.resize(table_.size());
   const std::size_t mask = table_.size() - 1;
   const float inverse_edge = 1.0F / edge_m;
   constexpr float kFarthestCell = 1e6F;
@@ -28,8 +36,13 @@ std::span<const std::uint32_t> VoxelDownsampler::run(std::span<const Eigen::Vect
     const VoxelKey key = voxel_key(floor_to_cell(cell.x()), floor_to_cell(cell.y()), floor_to_cell(cell.z()));
     std::size_t slot = hash_key(key) & mask;
     while (table_[slot] != kEmpty && table_[slot] != key) slot = (slot + 1) & mask;
-    if (table_[slot] == key) continue;
+    if (table_[slot] == key) {
+      std::uint32_t& kept = kept_[place_[slot]];
+      if (lot(i) < lot(kept)) kept = static_cast<std::uint32_t>(i);
+      continue;
+    }
     table_[slot] = key;
+    place_[slot] = static_cast<std::uint32_t>(kept_.size());
     kept_.push_back(static_cast<std::uint32_t>(i));
   }
   return kept_;
