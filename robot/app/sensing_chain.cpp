@@ -141,6 +141,8 @@ void SensingChain::publish_counters(metrics::Registry& metrics) const {
       {"tracking.out_of_range_points", t.out_of_range_points},
       {"tracking.bad_imu_samples", t.bad_imu_samples},
       {"tracking.imu_gaps", t.imu_gaps},
+      {"tracking.moving_starts", t.moving_starts},
+      {"tracking.refused_starts", t.refused_starts},
       {"tracking.evicted_cells", t.evicted_cells},
       {"tracking.unused_pictures", t.unused_pictures},
       {"tracking.visual_updates", t.visual_updates},

@@ -30,13 +30,22 @@ ImuInitialiser::Spread spread_of(const std::vector<sync::GroupImu>& samples, Fie
 
 }  // namespace
 
-std::optional<InitialBelief> ImuInitialiser::add(const std::vector<sync::GroupImu>& imu) {
+std::optional<FilterBelief> ImuInitialiser::add(const std::vector<sync::GroupImu>& imu) {
+  const auto spans = [&](std::size_t first) {
+    return samples_.size() >= first + 3 &&
+           samples_.back().stamp - samples_[first].stamp >= from_seconds(config_.init_s);
+  };
+  std::size_t first = 0;
+  while (spans(first)) ++first;  // those were judged before
+  samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(first));
   for (const auto& sample : imu) {
     if (samples_.empty() || sample.stamp > samples_.back().stamp) samples_.push_back(sample);
   }
-  if (samples_.size() < 3 || to_seconds(samples_.back().stamp - samples_.front().stamp) < config_.init_s)
-    return {};
-  return solve();
+  if (!spans(0)) return std::nullopt;
+  const Spread accel = spread_of(samples_, [](const sync::GroupImu& s) -> Vector3d { return s.accel_mps2; });
+  const Spread gyro = spread_of(samples_, [](const sync::GroupImu& s) -> Vector3d { return s.gyro_radps; });
+  if (!at_rest(accel, gyro)) return std::nullopt;
+  return solve(accel, gyro);
 }
 
 // The spread may exceed the limits by what white noise at the IMU's rate explains.
@@ -50,24 +59,19 @@ bool ImuInitialiser::at_rest(const Spread& accel, const Spread& gyro) const {
          std::abs(accel.mean.norm() - kStandardGravity_mps2) < kRestForceTolerance_mps2;
 }
 
-InitialBelief ImuInitialiser::solve() const {
-  const Spread accel = spread_of(samples_, [](const sync::GroupImu& s) -> Vector3d { return s.accel_mps2; });
-  const Spread gyro = spread_of(samples_, [](const sync::GroupImu& s) -> Vector3d { return s.gyro_radps; });
-  InitialBelief initial;
-  initial.stationary = at_rest(accel, gyro);
-  FilterState& state = initial.belief.state;
-  state.odom_from_body.rotation = Eigen::Quaterniond::FromTwoVectors(accel.mean, Vector3d::UnitZ());
-  state.gravity_in_odom_mps2 = Vector3d(0.0, 0.0, -kStandardGravity_mps2);
-  if (initial.stationary) state.gyro_bias_radps = gyro.mean;
-
-  initial.belief.covariance = initial_covariance(initial, accel, gyro);
-  return initial;
+FilterBelief ImuInitialiser::solve(const Spread& accel, const Spread& gyro) const {
+  FilterBelief belief;
+  belief.state.odom_from_body.rotation = Eigen::Quaterniond::FromTwoVectors(accel.mean, Vector3d::UnitZ());
+  belief.state.gravity_in_odom_mps2 = Vector3d(0.0, 0.0, -kStandardGravity_mps2);
+  belief.state.gyro_bias_radps = gyro.mean;
+  belief.covariance = initial_covariance(belief.state, accel, gyro);
+  return belief;
 }
 
 // Odom is defined by the first pose: its rotation and position are exact, gravity's direction carries the
 // doubt. At rest the mean force is bias - R'g: whatever the bias is wrong by, gravity is wrong by the same,
 // turned by R.
-ErrorMatrix ImuInitialiser::initial_covariance(const InitialBelief& initial, const Spread& accel,
+ErrorMatrix ImuInitialiser::initial_covariance(const FilterState& state, const Spread& accel,
                                                const Spread& gyro) const {
   const auto samples = static_cast<double>(samples_.size());
   ErrorMatrix p = ErrorMatrix::Zero();
@@ -79,13 +83,8 @@ ErrorMatrix ImuInitialiser::initial_covariance(const InitialBelief& initial, con
   set(kAccelBias, kAccelBiasSigma_mps2);
   // A body that rolls smoothly feels the same as one at rest: the speed stays unknown until the second scan.
   set(kVel, config_.init_moving_speed_sigma_mps);
-  if (!initial.stationary) {
-    set(kGyroBias, config_.init_gyro_rate_max_radps);
-    set(kGravity, std::max(0.5, accel.deviation));
-    return p;
-  }
   set(kGyroBias, 1e-4 + gyro.deviation / std::sqrt(samples));
-  const Eigen::Matrix3d rotation = initial.belief.state.odom_from_body.rotation.toRotationMatrix();
+  const Eigen::Matrix3d rotation = state.odom_from_body.rotation.toRotationMatrix();
   const double bias_variance = kAccelBiasSigma_mps2 * kAccelBiasSigma_mps2;
   set(kGravity, std::hypot(kAccelBiasSigma_mps2, 0.005 + accel.deviation / std::sqrt(samples)));
   p.block<3, 3>(kGravity, kAccelBias) = bias_variance * rotation;

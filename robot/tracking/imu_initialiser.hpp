@@ -12,15 +12,8 @@
 
 namespace edgesplat::tracking {
 
-/// The first belief, and what it rests on.
-struct InitialBelief {
-  FilterBelief belief;
-  bool stationary = false;  ///< as far as an IMU can tell: smooth driving looks the same
-};
-
-/// Finds gravity and the gyro bias from the first IMU samples. A start at rest gives the bias and a level to
-/// the accelerometer's bias; otherwise the mean force still gives the level, roughly, and the covariance says
-/// so.
+/// Finds gravity and the gyro bias at the first rest: as far as an IMU can tell, since smooth driving looks
+/// the same. (A start in motion: see MovingStart.)
 class ImuInitialiser {
  public:
   /// Mean of a signal over the samples, and the root of its axes' summed variances.
@@ -32,15 +25,14 @@ class ImuInitialiser {
   ImuInitialiser(const TrackingConfig& config, const sensor::ImuModel& model)
       : config_(config), model_(model) {}
 
-  /// Takes a group's samples; the belief once `init_s` of them were seen. Samples repeated between groups
-  /// count once.
-  std::optional<InitialBelief> add(const std::vector<sync::GroupImu>& imu);
+  /// Takes a group's samples; the belief once the last `init_s` of them were quiet. Samples repeated between
+  /// groups count once.
+  std::optional<FilterBelief> add(const std::vector<sync::GroupImu>& imu);
 
  private:
-  [[nodiscard]] InitialBelief solve() const;
-  [[nodiscard]] ErrorMatrix initial_covariance(const InitialBelief& initial, const Spread& accel,
+  [[nodiscard]] FilterBelief solve(const Spread& accel, const Spread& gyro) const;
+  [[nodiscard]] ErrorMatrix initial_covariance(const FilterState& state, const Spread& accel,
                                                const Spread& gyro) const;
-
   [[nodiscard]] bool at_rest(const Spread& accel, const Spread& gyro) const;
 
   TrackingConfig config_;

@@ -37,6 +37,7 @@ TrackingCounters Tracker::counters() const {
     counters.visual_points = static_cast<std::int64_t>(impl_->visual->map().size());
     counters.visual_map_bytes = static_cast<std::int64_t>(impl_->visual->map().bytes());
   }
+  counters.refused_starts = impl_->refused_starts();
   return counters;
 }
 

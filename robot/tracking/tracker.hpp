@@ -20,6 +20,8 @@ struct TrackingCounters {
   std::int64_t misfit_scans = 0;         ///< aligned, but too much of them lay off the map: not believed
   std::int64_t recoveries = 0;           ///< a lost pose was found in the map
   std::int64_t map_restarts = 0;         ///< a lost pose was not found: the map was begun anew
+  std::int64_t moving_starts = 0;        ///< the first pose was found without rest
+  std::int64_t refused_starts = 0;       ///< starts in motion that contradicted themselves or told too little
   std::int64_t bad_points = 0;           ///< not finite
   std::int64_t out_of_range_points = 0;  ///< nearer or farther than the LiDAR or the config allows
   std::int64_t bad_imu_samples = 0;      ///< not finite or not after the one before
@@ -54,6 +56,7 @@ class Tracker {
 
  private:
   struct Impl;
+  class MovingStart;
   explicit Tracker(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

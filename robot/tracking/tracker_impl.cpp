@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace edgesplat::tracking {
 namespace {
@@ -37,9 +38,10 @@ PlaneMapConfig map_config(const TrackingConfig& config) {
           static_cast<std::size_t>(config.map_max_mb) << 20U};
 }
 
-Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in)
+Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in, Gravity gravity_in)
     : config(config_in),
       rig(rig_in),
+      gravity(gravity_in),
       loop(config_in.threads),
       noise(rig_in.lidar),
       map(map_config(config_in)),
@@ -50,7 +52,9 @@ Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in)
       rest(rig_in.imu.value_or(sensor::ImuModel{})),
       with_imu(rig_in.imu.has_value()) {
   if (config.visual && rig.camera) visual.emplace(config, *rig.camera, loop);
+  if (with_imu && gravity == Gravity::kFelt) moving_start = std::make_unique<MovingStart>(config, rig);
 }
+Tracker::Impl::~Impl() = default;
 
 Status Tracker::Impl::check_times(const sync::MeasureGroup& group) const {
   if (group.end < group.begin) {
@@ -90,9 +94,32 @@ void Tracker::Impl::initialise(const sync::MeasureGroup& group) {
   }
   if (!with_imu) {
     belief = free_motion.first_belief();
-  } else if (const auto initial = initialiser.add(imu)) {
-    belief = initial->belief;
+  } else if (gravity == Gravity::kNone) {
+    belief = free_motion.first_belief();
+    belief->covariance.block<3, 3>(kGyroBias, kGyroBias) =
+        config.init_gyro_rate_max_radps * config.init_gyro_rate_max_radps * Eigen::Matrix3d::Identity();
+  } else {
+    initialise_with_imu(group);
   }
+}
+
+void Tracker::Impl::initialise_with_imu(const sync::MeasureGroup& group) {
+  started = moving_start->add(group, imu);
+  belief = initialiser.add(imu);
+  if (!moving_start->sees_rest()) belief.reset();  // smooth driving feels like rest
+  if (!belief) {
+    if (!started) return;
+    belief = started->belief;
+    ++counters.moving_starts;
+  } else {
+    started.reset();
+  }
+  counters.refused_starts = moving_start->refused();
+  moving_start.reset();
+}
+
+std::int64_t Tracker::Impl::refused_starts() const {
+  return moving_start ? moving_start->refused() : counters.refused_starts;
 }
 
 // Without an IMU the pose is estimated for the middle of the points' times: an error of the estimated rate
@@ -176,7 +203,7 @@ VisualUpdateResult Tracker::Impl::see(const sync::MeasureGroup& group, const Sca
 }
 
 void Tracker::Impl::use_rest(const ScanUpdateResult& result) {
-  if (!with_imu || imu.empty() || !rest.add(imu, belief->state)) return;
+  if (!with_imu || gravity == Gravity::kNone || imu.empty() || !rest.add(imu, belief->state)) return;
   const Eigen::Matrix3d unseen =
       result.updated ? result.observed.frozen_steps : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
   const Eigen::Vector3d seen_mps =
@@ -222,6 +249,7 @@ TrackedGroup Tracker::Impl::start(const sync::MeasureGroup& group) {
   TrackedGroup waiting;
   waiting.stamp = group.end;
   if (!belief) return waiting;
+  if (started) return start_in_motion(group);
   std::vector<PathKnot> path = {{group.end, belief->state.odom_from_body}};
   // The speed is unknown, but the gyro tells how the body turned.
   if (with_imu)
@@ -237,6 +265,21 @@ TrackedGroup Tracker::Impl::start(const sync::MeasureGroup& group) {
   // body was at its end is not known either. The map is begun, but no pose is claimed.
   if (!with_imu && sweep.has_point_times()) tracked.health.state = TrackingState::kInitialising;
   return tracked;
+}
+
+TrackedGroup Tracker::Impl::start_in_motion(const sync::MeasureGroup& group) {
+  for (const EarlyScan& scan : started->scans) {
+    std::vector<std::uint32_t> all(scan.points_in_body_m.size());
+    std::iota(all.begin(), all.end(), 0U);
+    insert_points(scan.points_in_body_m, all, scan.odom_from_body, scan.pose_covariance);
+  }
+  sweep.deskew(started->path, belief->state.odom_from_body.inverse());
+  started.reset();
+  ScanUpdateResult found;
+  found.updated = true;  // the pose is that of the odometry that found it
+  extend_map(found);
+  state = TrackingState::kTracking;
+  return report(group, found, {});
 }
 
 Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {

@@ -6,6 +6,7 @@
 #include "robot/tracking/block_loop.hpp"
 #include "robot/tracking/free_motion.hpp"
 #include "robot/tracking/imu_initialiser.hpp"
+#include "robot/tracking/moving_start.hpp"
 #include "robot/tracking/plane_map.hpp"
 #include "robot/tracking/relocalise.hpp"
 #include "robot/tracking/rest_detector.hpp"
@@ -15,18 +16,25 @@
 #include "robot/tracking/tracker.hpp"
 #include "robot/tracking/visual_front.hpp"
 
+#include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace edgesplat::tracking {
 
 constexpr int kRedrawnScans = 4;
 
+/// Whether the IMU's samples hold a weight: without, they tell rotations alone (see MovingStart).
+enum class Gravity : std::uint8_t { kFelt, kNone };
+
 [[nodiscard]] PlaneMapConfig map_config(const TrackingConfig& config);
 
 /// The stages of one group, in their order. See Tracker.
 struct Tracker::Impl {
-  Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in);
+  Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in, Gravity gravity_in = Gravity::kFelt);
+  ~Impl();
 
   Result<TrackedGroup> track(const sync::MeasureGroup& group);
 
@@ -34,6 +42,10 @@ struct Tracker::Impl {
   void clean_imu(const sync::MeasureGroup& group);
   /// Sets the first belief once there is one.
   void initialise(const sync::MeasureGroup& group);
+  /// From rest where there is rest, else in motion.
+  void initialise_with_imu(const sync::MeasureGroup& group);
+  TrackedGroup start_in_motion(const sync::MeasureGroup& group);
+  [[nodiscard]] std::int64_t refused_starts() const;
   TrackedGroup start(const sync::MeasureGroup& group);
   /// The moment whose pose the group's points are to tell.
   HostTime update_time(const sync::MeasureGroup& group) const;
@@ -55,11 +67,14 @@ struct Tracker::Impl {
   /// The picture's update, at the moment of the LiDAR's.
   VisualUpdateResult see(const sync::MeasureGroup& group, const ScanUpdateResult& scan);
   void extend_map(const ScanUpdateResult& update);
+  void insert_points(std::span<const Eigen::Vector3f> points_in_body_m, std::span<const std::uint32_t> kept,
+                     const geometry::RigidTransform& pose, const Matrix6d& pose_covariance);
   [[nodiscard]] TrackedGroup report(const sync::MeasureGroup& group, const ScanUpdateResult& scan,
                                     const VisualUpdateResult& picture) const;
 
   TrackingConfig config;
   sensor::Rig rig;
+  Gravity gravity;
   TrackingCounters counters;
   BlockLoop loop;
   PointNoise noise;
@@ -68,6 +83,8 @@ struct Tracker::Impl {
   Sweep sweep;
   FreeMotion free_motion;
   ImuInitialiser initialiser;
+  std::unique_ptr<MovingStart> moving_start;  ///< until the first pose
+  std::optional<MovingStartResult> started;   ///< the group that it was found with is in hand
   RestDetector rest;
   TrackKeeper keeper;
   TrackingState state = TrackingState::kInitialising;

@@ -106,11 +106,17 @@ void Tracker::Impl::extend_map(const ScanUpdateResult& result) {
   }
   const auto points = sweep.points_in_body_m();
   const auto kept = map_downsampler.run(points, static_cast<float>(config.map_voxel_m));
-  const geometry::RigidTransform& pose = belief->state.odom_from_body;
+  insert_points(points, kept, belief->state.odom_from_body, belief->covariance.topLeftCorner<6, 6>());
+  map.slide(belief->state.odom_from_body.translation_m);
+}
+
+void Tracker::Impl::insert_points(std::span<const Eigen::Vector3f> points,
+                                  std::span<const std::uint32_t> kept, const geometry::RigidTransform& pose,
+                                  const Matrix6d& pose_covariance) {
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   const Eigen::Matrix3f rotation_f = rotation.cast<float>();
-  const Eigen::Matrix3f rotation_noise = belief->covariance.block<3, 3>(kRot, kRot).cast<float>();
-  const Eigen::Matrix3f position_noise = belief->covariance.block<3, 3>(kPos, kPos).cast<float>();
+  const Eigen::Matrix3f rotation_noise = pose_covariance.block<3, 3>(kRot, kRot).cast<float>();
+  const Eigen::Matrix3f position_noise = pose_covariance.block<3, 3>(kPos, kPos).cast<float>();
   const Eigen::Vector3f lidar_in_body = rig.body_from_lidar.translation_m.cast<float>();
   map_points.resize(kept.size());
   loop.run(kept.size(), kBlockSize, [&](std::size_t, std::size_t first, std::size_t last) {
@@ -126,7 +132,6 @@ void Tracker::Impl::extend_map(const ScanUpdateResult& result) {
     }
   });
   for (const MapPoint& point : map_points) map.insert(point);
-  map.slide(pose.translation_m);
 }
 
 }  // namespace edgesplat::tracking

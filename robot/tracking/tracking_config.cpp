@@ -10,13 +10,17 @@ void describe(config::ConfigReader& reader, TrackingConfig& config) {
   reader.field("threads", config.threads, {1, 64},
                "threads of the parallel loops; the result does not depend on it");
   reader.field("init_s", config.init_s, {0.05, 10},
-               "IMU data gathered for gravity and the gyro bias before the first pose");
+               "rest that gives gravity and the gyro's bias before the first pose");
   reader.field("init_accel_spread_max_mps2", config.init_accel_spread_max_mps2, {1e-6, 10},
                "more spread than this: the start counts as moving");
   reader.field("init_gyro_rate_max_radps", config.init_gyro_rate_max_radps, {1e-6, 1},
                "a mean rate or spread above: the start counts as moving");
   reader.field("init_moving_speed_sigma_mps", config.init_moving_speed_sigma_mps, {1e-3, 50},
-               "1 sigma of the unknown first speed of a moving start");
+               "1 sigma of the unknown first speed");
+  reader.field("init_rest_wait_s", config.init_rest_wait_s, {0, 600},
+               "for rest, before a start in motion is taken");
+  reader.field("init_moving_s", config.init_moving_s, {0.3, 10},
+               "of scans and IMU that a start in motion is found from");
   reader.field("motion_accel_mps2_per_sqrt_hz", config.motion_accel_mps2_per_sqrt_hz, {1e-6, 100},
                "least unrest of the motion without IMU, adapted up");
   reader.field("motion_turn_radps2_per_sqrt_hz", config.motion_turn_radps2_per_sqrt_hz, {1e-6, 100},

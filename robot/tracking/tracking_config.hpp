@@ -15,13 +15,14 @@ namespace edgesplat::tracking {
 struct TrackingConfig {
   int threads = 1;  ///< threads of the parallel loops; the result does not depend on it, [1, 64]
 
-  double init_s = 0.3;  ///< IMU data gathered for gravity and the gyro bias before the first pose, [0.05, 10]
+  double init_s = 0.3;  ///< rest that gives gravity and the gyro's bias before the first pose, [0.05, 10]
   double init_accel_spread_max_mps2 =
       0.4;  ///< more spread, the IMU's noise apart: the start counts as moving, (0, 10]
   double init_gyro_rate_max_radps =
-      0.05;  ///< a mean rate or spread above: the start counts as moving, (0, 1]
-  double init_moving_speed_sigma_mps =
-      2.0;  ///< 1 sigma of the unknown first speed of a moving start, (0, 50]
+      0.05;                       ///< a mean rate or spread above: the start counts as moving, (0, 1]
+  double init_rest_wait_s = 0.0;  ///< for rest, before a start in motion is taken, [0, 600]
+  double init_moving_s = 1.0;     ///< of scans and IMU that a start in motion is found from, [0.3, 10]
+  double init_moving_speed_sigma_mps = 2.0;  ///< 1 sigma of the unknown first speed, (0, 50]
 
   double motion_accel_mps2_per_sqrt_hz =
       1.0;  ///< least unrest of the motion without IMU, adapted up, (0, 100]

@@ -150,9 +150,13 @@ Result<OdometryRun> run_odometry(const OdometryJob& asked, const Clock& clock, c
   sync::GroupBuilder builder({}, rig);
   OdometryLoop loop(*tracker, job, clock, processor);
   std::span<const sensor::ImuSample> waiting = imu;
+  std::optional<HostTime> first;
   while (true) {
     EDGESPLAT_TRY(auto measurement, source.next());
     if (!measurement) break;
+    const HostTime arrival = sensor::arrival_of(*measurement);
+    if (!first) first = arrival;
+    if (arrival - *first < from_seconds(job.from_s)) continue;
     if (auto* scan = std::get_if<sensor::LidarScan>(&*measurement);
         scan != nullptr && job.timing == ScanTiming::kAzimuth) {
       scan->stamp += kHalfTurn;

@@ -40,6 +40,7 @@ struct OdometryJob {
   tracking::TrackingConfig tracking;
   ScanTiming timing = ScanTiming::kInstant;
   OdometryMode mode = OdometryMode::kLidarInertialVisual;
+  double from_s = 0.0;  ///< left out at the recording's begin, by arrival
 };
 
 struct OdometryRun {

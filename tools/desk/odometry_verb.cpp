@@ -31,6 +31,7 @@ struct OdometryOptions {
   std::vector<std::string> settings;
   OdometryMode mode = OdometryMode::kLidarInertialVisual;
   ScanTiming timing = ScanTiming::kInstant;
+  double from_s = 0.0;
   bool json = false;
 };
 
@@ -39,6 +40,7 @@ Result<OdometryJob> job_of(const OdometryOptions& options) {
   job.lidar = options.lidar;
   job.timing = options.timing;
   job.mode = options.mode;
+  job.from_s = options.from_s;
   if (!options.imu.empty()) job.imu = options.imu;
   if (!options.rig.empty()) {
     EDGESPLAT_TRY(job.rig, replay::load_bag_rig(options.rig));
@@ -160,6 +162,8 @@ void add_odometry_verb(CLI::App& app, VerbContext& context) {
           std::map<std::string, OdometryMode>{{"livo", OdometryMode::kLidarInertialVisual},
                                               {"lio", OdometryMode::kLidarInertial},
                                               {"lo", OdometryMode::kLidar}}));
+  verb->add_option("--from", options->from_s, "Leave out the first so many seconds")
+      ->check(CLI::NonNegativeNumber);
   verb->add_option("--groups", options->groups,
                    "CSV to write, one line a group: how far its pose can be trusted");
   verb->add_option("--set", options->settings, "A tracking setting, e.g. root_voxel_m=1 (repeatable)");
