@@ -28,6 +28,7 @@ class IndexPool {
   void release(std::uint32_t index) { free_.push_back(index); }
   T& operator[](std::uint32_t index) { return items_[index]; }
   const T& operator[](std::uint32_t index) const { return items_[index]; }
+  [[nodiscard]] std::size_t slots() const { return items_.size(); }
   [[nodiscard]] std::size_t live() const { return items_.size() - free_.size(); }
   [[nodiscard]] std::size_t live_bytes() const { return live() * sizeof(T); }
 

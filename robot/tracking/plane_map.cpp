@@ -141,7 +141,7 @@ PlaneMatch PlaneMap::find_in(const Index3& index, Eigen::Vector3f offset) const 
   }
   if (here->state != CellState::kPlane) return {};
   const Plane& plane = planes_[here->plane];
-  return {&plane, offset - plane.centre_m};
+  return {&plane, offset - plane.centre_m, here->plane};
 }
 
 PlaneMatch PlaneMap::find(const Eigen::Vector3d& p) const {

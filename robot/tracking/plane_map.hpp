@@ -20,7 +20,7 @@ struct PlaneMapConfig {
   int max_layer = 2;
   float plane_sigma_max_m = 0.05F;
   std::uint32_t plane_min_points = 6;
-  std::uint32_t plane_freeze_points = 60;
+  std::uint32_t plane_freeze_points = 1000;
   double half_extent_m = 100.0;
   std::size_t max_bytes = std::size_t{256} << 20U;
 };
@@ -35,6 +35,7 @@ struct MapPoint {
 struct PlaneMatch {
   const Plane* plane = nullptr;  ///< valid until the map changes
   Eigen::Vector3f from_centre_m;
+  std::uint32_t id = 0;  ///< of the plane, below PlaneMap::plane_ids(), as long as the map does not change
 };
 
 /// The local map: cubic root cells in a hash, each split in eight as long as its points are no plane.
@@ -57,6 +58,7 @@ class PlaneMap {
   [[nodiscard]] std::size_t bytes() const;
   [[nodiscard]] std::int64_t evicted_roots() const { return evicted_roots_; }
   [[nodiscard]] std::size_t roots() const { return roots_.live(); }
+  [[nodiscard]] std::size_t plane_ids() const { return planes_.slots(); }
 
  private:
   enum class CellState : std::uint8_t { kGathering, kPlane, kSplit, kRough };

@@ -16,10 +16,6 @@ namespace {
 constexpr std::size_t kBlockSize = 128;
 /// Cauchy kernel: a residual of this many sigma counts half.
 constexpr float kRobustSigma = 2.0F;
-/// Neighbouring points share the error of their plane: they count as this part of independent ones. Measured:
-/// the error stays near the stated covariance in simulation, where the full weight states six times too
-/// little.
-constexpr float kIndependentShare = 0.25F;
 /// How fast the gate closes from the prior's doubt to the posterior's: at once, it locks in the first step's
 /// matches.
 constexpr double kGateShrink = 0.25;
@@ -30,15 +26,6 @@ constexpr double kPositionDone_m = 2e-4;
 constexpr float kReachSigma = 3.0F;
 
 using Matrix6f = Eigen::Matrix<float, 6, 6>;
-using Vector6f = Eigen::Matrix<float, 6, 1>;
-
-struct Linearised {
-  float residual_m;
-  float variance_m2;  ///< of the point and the plane, without the pose
-  float spread_m2;    ///< with the pose
-  Vector6f row;
-  Matrix6f row_covariance;  ///< of the row, the normal being uncertain
-};
 
 /// What all residuals at one pose share.
 struct PoseView {
@@ -49,67 +36,72 @@ struct PoseView {
   float model_variance_m2;
 };
 
-std::optional<Linearised> linearise(const PlaneMatch& match, const Eigen::Vector3f& p_in_body,
-                                    const PoseView& pose, const ScanView& scan) {
+std::optional<MatchedPoint> linearise(const PlaneMatch& match, const Eigen::Vector3f& p_in_body,
+                                      const PoseView& pose, const ScanView& scan) {
   const Plane& plane = *match.plane;
   const float residual = plane.normal.dot(match.from_centre_m);
   const float across = match.from_centre_m.squaredNorm() - residual * residual;
   if (across > kReachSigma * kReachSigma * plane.reach_m2) return std::nullopt;
   const Eigen::Vector3f normal_in_body = pose.rotation.transpose() * plane.normal;
-  Linearised line;
+  MatchedPoint line;
+  line.plane = match.plane;
+  line.plane_id = match.id;
   line.residual_m = residual;
   line.row.head<3>() = p_in_body.cross(normal_in_body);
   line.row.tail<3>() = plane.normal;
-  line.variance_m2 = pose.model_variance_m2 + plane.variance_at(match.from_centre_m) +
-                     scan.noise->variance_along(p_in_body - scan.lidar_in_body_m, normal_in_body);
-  line.spread_m2 = line.variance_m2 + line.row.dot(pose.covariance * line.row);
-  // The row is linear in the normal: (hat(p) R', I) n.
+  line.point_variance_m2 =
+      pose.model_variance_m2 + scan.noise->variance_along(p_in_body - scan.lidar_in_body_m, normal_in_body);
+  line.plane_variance_m2 = plane.variance_at(match.from_centre_m);
+  line.spread_m2 = line.point_variance_m2 + line.plane_variance_m2 + line.row.dot(pose.covariance * line.row);
+  return line;
+}
+
+/// Of the row, the normal being uncertain: it is linear in the normal, (hat(p) R', I) n.
+Matrix6f row_covariance(const Plane& plane, const Eigen::Vector3f& p_in_body, const PoseView& pose) {
   Eigen::Matrix3f lever;
   lever << 0.0F, -p_in_body.z(), p_in_body.y(), p_in_body.z(), 0.0F, -p_in_body.x(), -p_in_body.y(),
       p_in_body.x(), 0.0F;
   lever *= pose.rotation.transpose();
   const Eigen::Matrix3f normal_covariance = unpack(plane.normal_covariance);
-  line.row_covariance.topRightCorner<3, 3>() = lever * normal_covariance;
-  line.row_covariance.topLeftCorner<3, 3>() = line.row_covariance.topRightCorner<3, 3>() * lever.transpose();
-  line.row_covariance.bottomRightCorner<3, 3>() = normal_covariance;
-  line.row_covariance.bottomLeftCorner<3, 3>() = line.row_covariance.topRightCorner<3, 3>().transpose();
-  return line;
+  Matrix6f covariance;
+  covariance.topRightCorner<3, 3>() = lever * normal_covariance;
+  covariance.topLeftCorner<3, 3>() = covariance.topRightCorner<3, 3>() * lever.transpose();
+  covariance.bottomRightCorner<3, 3>() = normal_covariance;
+  covariance.bottomLeftCorner<3, 3>() = covariance.topRightCorner<3, 3>().transpose();
+  return covariance;
 }
 
-void accumulate(const Linearised& line, float gate_squared, PlaneResiduals& sums) {
+MatchedPoint match_point(const Eigen::Vector3f& p_in_body, const PoseView& pose, const ScanView& scan,
+                         const PlaneMap& map, float gate_squared) {
+  const Eigen::Vector3d p_in_odom = pose.rotation_d * p_in_body.cast<double>() + pose.translation_m;
+  std::optional<MatchedPoint> line;
+  if (const PlaneMatch match = map.find(p_in_odom); match.plane != nullptr) {
+    line = linearise(match, p_in_body, pose, scan);
+  }
+  const bool inside = line && line->residual_m * line->residual_m < gate_squared * line->spread_m2;
+  if (!inside) {
+    if (const PlaneMatch match = map.find_beyond_face(p_in_odom); match.plane != nullptr) {
+      const auto beyond = linearise(match, p_in_body, pose, scan);
+      if (beyond && (!line || std::abs(beyond->residual_m) < std::abs(line->residual_m))) line = beyond;
+    }
+  }
+  return line.value_or(MatchedPoint{});
+}
+
+// All points on a plane see the plane's error alike. Of m residuals with own variances s and a common one c,
+// the mean has the variance s / m + c: as if each had s + m c and they were independent.
+void accumulate(const MatchedPoint& line, float sharers, const Matrix6f& row_covariance, float gate_squared,
+                PlaneResiduals& sums) {
   const float chi_squared = line.residual_m * line.residual_m / line.spread_m2;
   if (!(chi_squared < gate_squared)) return;
-  const float weight =
-      kIndependentShare / (line.variance_m2 * (1.0F + chi_squared / (kRobustSigma * kRobustSigma)));
+  const float variance_m2 = line.point_variance_m2 + sharers * line.plane_variance_m2;
+  const float weight = 1.0F / (variance_m2 * (1.0F + chi_squared / (kRobustSigma * kRobustSigma)));
   const Vector6d row = line.row.cast<double>();
   sums.equations.information.noalias() += static_cast<double>(weight) * row * row.transpose();
   sums.equations.gradient += static_cast<double>(weight * line.residual_m) * row;
-  sums.equations.noise += (weight * line.row_covariance).cast<double>();
+  sums.equations.noise += (weight * row_covariance).cast<double>();
   ++sums.used;
   sums.squares_m2 += static_cast<double>(line.residual_m) * static_cast<double>(line.residual_m);
-}
-
-PlaneResiduals sum_block(std::span<const Eigen::Vector3f> points, const PoseView& pose, const ScanView& scan,
-                         const PlaneMap& map, float gate_squared) {
-  PlaneResiduals sums;
-  for (const Eigen::Vector3f& p_in_body : points) {
-    const Eigen::Vector3d p_in_odom = pose.rotation_d * p_in_body.cast<double>() + pose.translation_m;
-    std::optional<Linearised> line;
-    if (const PlaneMatch match = map.find(p_in_odom); match.plane != nullptr) {
-      line = linearise(match, p_in_body, pose, scan);
-    }
-    const bool inside = line && line->residual_m * line->residual_m < gate_squared * line->spread_m2;
-    if (!inside) {
-      if (const PlaneMatch match = map.find_beyond_face(p_in_odom); match.plane != nullptr) {
-        const auto beyond = linearise(match, p_in_body, pose, scan);
-        if (beyond && (!line || std::abs(beyond->residual_m) < std::abs(line->residual_m))) line = beyond;
-      }
-    }
-    if (!line) continue;
-    ++sums.matched;
-    accumulate(*line, gate_squared, sums);
-  }
-  return sums;
 }
 
 /// Projector on the states that a frozen direction holds still: the pose along it, and the velocity.
@@ -161,9 +153,21 @@ PlaneResiduals ScanUpdater::evaluate(const geometry::RigidTransform& odom_from_b
   pose.model_variance_m2 = config_.min_residual_sigma_m * config_.min_residual_sigma_m;
   const float gate_squared = config_.gate_sigma * config_.gate_sigma;
   const auto points = scan.points_in_body_m;
+  matched_.resize(points.size());
+  loop_.run(points.size(), kBlockSize, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      matched_[i] = match_point(points[i], pose, scan, map, gate_squared);
+  });
+  count_sharers(map);
   partial_.assign(BlockLoop::blocks(points.size(), kBlockSize), PlaneResiduals{});
   loop_.run(points.size(), kBlockSize, [&](std::size_t block, std::size_t first, std::size_t last) {
-    partial_[block] = sum_block(points.subspan(first, last - first), pose, scan, map, gate_squared);
+    for (std::size_t i = first; i < last; ++i) {
+      const MatchedPoint& line = matched_[i];
+      if (line.plane == nullptr) continue;
+      ++partial_[block].matched;
+      accumulate(line, static_cast<float>(sharers_[line.plane_id]),
+                 row_covariance(*line.plane, points[i], pose), gate_squared, partial_[block]);
+    }
   });
   PlaneResiduals total;
   for (const PlaneResiduals& part : partial_) {
@@ -175,6 +179,14 @@ PlaneResiduals ScanUpdater::evaluate(const geometry::RigidTransform& odom_from_b
     total.squares_m2 += part.squares_m2;
   }
   return total;
+}
+
+void ScanUpdater::count_sharers(const PlaneMap& map) {
+  sharers_.resize(map.plane_ids());
+  for (const MatchedPoint& line : matched_)
+    if (line.plane != nullptr) sharers_[line.plane_id] = 0;
+  for (const MatchedPoint& line : matched_)
+    if (line.plane != nullptr) ++sharers_[line.plane_id];
 }
 
 // States along a frozen direction are only considered (Schmidt): planes' errors last from scan to scan, and a

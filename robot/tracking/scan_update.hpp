@@ -29,6 +29,17 @@ struct ScanView {
   const PointNoise* noise = nullptr;
 };
 
+/// A point and the plane it was found to lie on.
+struct MatchedPoint {
+  const Plane* plane = nullptr;  ///< nullptr: none
+  std::uint32_t plane_id = 0;
+  float residual_m = 0.0F;
+  float point_variance_m2 = 0.0F;  ///< along the normal, with the model's
+  float plane_variance_m2 = 0.0F;  ///< of the plane's place there: the same for all points nearby
+  float spread_m2 = 0.0F;          ///< of the residual, the pose's doubt in it
+  Eigen::Matrix<float, 6, 1> row;
+};
+
 /// The point-to-plane residuals at one pose.
 struct PlaneResiduals {
   NormalEquations equations;
@@ -73,9 +84,13 @@ class ScanUpdater {
                           const ScanView& scan, const PlaneMap& map);
 
  private:
+  void count_sharers(const PlaneMap& map);
+
   ScanUpdateConfig config_;
   BlockLoop& loop_;
   std::vector<PlaneResiduals> partial_;
+  std::vector<MatchedPoint> matched_;
+  std::vector<std::uint32_t> sharers_;  ///< by plane: how many of the scan's points lie on it
 };
 
 }  // namespace edgesplat::tracking

@@ -75,7 +75,9 @@ TEST(PlaneMap, SplitsACornerIntoItsPlanes) {
 }
 
 TEST(PlaneMap, AFrozenPlaneTakesNoMorePointsAndNoMoreMemory) {
-  PlaneMap map({});
+  PlaneMapConfig config;
+  config.plane_freeze_points = 60;
+  PlaneMap map(config);
   add_floor(map, 0.05, 0.95, 0.5);
   add_floor(map, 0.05, 0.95, 0.5, 2);
   const std::size_t bytes = map.bytes();

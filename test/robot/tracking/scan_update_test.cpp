@@ -95,6 +95,34 @@ TEST_F(ScanUpdate, FindsThePoseInARoom) {
   EXPECT_LT((result.belief.covariance - result.belief.covariance.transpose()).norm(), 1e-12);
 }
 
+// However many points lie on one plane, they tell its place no better than the plane itself is known.
+TEST_F(ScanUpdate, PointsOnOnePlaneShareItsError) {
+  test::Random random(4);
+  const Symmetric3f noise = pack((1e-4F * Eigen::Matrix3f::Identity()).eval());
+  for (int i = 0; i < 10; ++i) {
+    map_.insert(
+        {{random.uniform(0.05, 0.95), random.uniform(0.05, 0.95), 0.5 + 0.01 * random.normal()}, noise});
+  }
+  const PlaneMatch floor = map_.find({0.5, 0.5, 0.5});
+  ASSERT_NE(floor.plane, nullptr);
+  const double least_m2 = floor.plane->offset_variance_m2;
+  const auto information_of = [&](int points) {
+    std::vector<Eigen::Vector3f> scan;
+    for (int i = 0; i < points; ++i) {
+      scan.emplace_back(static_cast<float>(random.uniform(0.3, 0.7)),
+                        static_cast<float>(random.uniform(0.3, 0.7)), 0.5F);
+    }
+    return updater_
+        .evaluate({}, ErrorMatrix::Identity().topLeftCorner<6, 6>(), {scan, {0.5F, 0.5F, 2.0F}, &noise_},
+                  map_)
+        .equations.information(kPos + 2, kPos + 2);
+  };
+  EXPECT_GT(information_of(20), 1.5 * information_of(1));
+  EXPECT_LT(information_of(20), 1.0 / least_m2);
+  EXPECT_LT(information_of(2000), 1.0 / least_m2);
+  EXPECT_LT(information_of(2000), 1.5 * information_of(200));
+}
+
 TEST_F(ScanUpdate, AFloorAloneIsFlaggedAndLeavesTheUnseenDirectionsAlone) {
   map_room(true);
   const auto points = scan(2000, true);
