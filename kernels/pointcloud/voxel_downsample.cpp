@@ -10,7 +10,7 @@
 namespace edgesplat::pointcloud {
 namespace {
 
-constexpr VoxelKey kEmpty = ~VoxelKey{0};  // 63 bits are used: no key has this value
+constexpr std::uint32_t kEmpty = ~std::uint32_t{0};
 
 /// The lower wins a cell. An odd factor makes it a permutation: no two points draw the same.
 std::uint32_t lot(std::size_t point) {
@@ -24,9 +24,9 @@ std::uint32_t lot(std::size_t point) {
 std::span<const std::uint32_t> VoxelDownsampler::run(std::span<const Eigen::Vector3f> points, float edge_m) {
   EDGESPLAT_CHECK(edge_m > 0.0F, "a voxel needs a size");
   kept_.clear();
+  keys_.clear();
   if (points.empty()) return kept_;
-  table_.assign(std::bit_ceil(points.size() * 2), kEmpty);
-  place_.resize(table_.size());
+  table_.assign(std::bit_ceil(points.size() + points.size() / 4), kEmpty);
   const std::size_t mask = table_.size() - 1;
   const float inverse_edge = 1.0F / edge_m;
   constexpr float kFarthestCell = 1e6F;
@@ -35,15 +35,14 @@ std::span<const std::uint32_t> VoxelDownsampler::run(std::span<const Eigen::Vect
     if (!(cell.cwiseAbs().maxCoeff() < kFarthestCell) || !cell.allFinite()) continue;
     const VoxelKey key = voxel_key(floor_to_cell(cell.x()), floor_to_cell(cell.y()), floor_to_cell(cell.z()));
     std::size_t slot = hash_key(key) & mask;
-    while (table_[slot] != kEmpty && table_[slot] != key) slot = (slot + 1) & mask;
-    if (table_[slot] == key) {
-      std::uint32_t& kept = kept_[place_[slot]];
-      if (lot(i) < lot(kept)) kept = static_cast<std::uint32_t>(i);
-      continue;
+    while (table_[slot] != kEmpty && keys_[table_[slot]] != key) slot = (slot + 1) & mask;
+    if (table_[slot] == kEmpty) {
+      table_[slot] = static_cast<std::uint32_t>(kept_.size());
+      keys_.push_back(key);
+      kept_.push_back(static_cast<std::uint32_t>(i));
+    } else if (std::uint32_t& kept = kept_[table_[slot]]; lot(i) < lot(kept)) {
+      kept = static_cast<std::uint32_t>(i);
     }
-    table_[slot] = key;
-    place_[slot] = static_cast<std::uint32_t>(kept_.size());
-    kept_.push_back(static_cast<std::uint32_t>(i));
   }
   return kept_;
 }

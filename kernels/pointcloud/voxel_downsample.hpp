@@ -25,8 +25,8 @@ class VoxelDownsampler {
   std::span<const std::uint32_t> run(std::span<const Eigen::Vector3f> points, float edge_m);
 
  private:
-  std::vector<VoxelKey> table_;
-  std::vector<std::uint32_t> place_;  ///< of a slot's point in kept_
+  std::vector<std::uint32_t> table_;  ///< open addressing: places in the two below
+  std::vector<VoxelKey> keys_;
   std::vector<std::uint32_t> kept_;
 };
 
