@@ -74,8 +74,10 @@ void SimulatedDrive::add_points(sync::MeasureGroup& group, double begin_s, doubl
   const double packet_s = to_seconds(lidar_.packet_period());
   const auto first = static_cast<std::uint64_t>(std::ceil(begin_s / packet_s - 1e-6));
   const auto last = static_cast<std::uint64_t>(std::ceil(end_s / packet_s - 1e-6));
-  for (std::uint64_t number = first; number < last; number += config_.keep_every_packet) {
-    for (const auto& packet : lidar_.packets(number, 1)) {
+  const std::uint64_t step = config_.keep_every_packet;
+  const std::size_t at_once = step == 1 && last > first ? last - first : 1;  // on all cores
+  for (std::uint64_t number = first; number < last; number += step == 1 ? at_once : step) {
+    for (const auto& packet : lidar_.packets(number, at_once)) {
       for (std::size_t i = 0; i < packet.points.size(); ++i) {
         const simulate::WirePoint& point = packet.points[i];
         if (point.x_mm == 0 && point.y_mm == 0 && point.z_mm == 0) continue;
