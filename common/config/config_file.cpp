@@ -80,7 +80,9 @@ Status ConfigFile::apply_override(std::string_view assignment) {
   if (!parsed)
     return fail(Errc::kInvalidConfig, "--set " + std::string(assignment) + ": " + parsed.error().context);
   mark_as_override(*parsed);
-  merge(root_, std::move(*parsed));
+  const Status merged = merge(root_, std::move(*parsed));
+  if (!merged)
+    return fail(Errc::kInvalidConfig, "--set " + std::string(assignment) + ": " + merged.error().context);
   return {};
 }
 

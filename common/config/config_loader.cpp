@@ -193,6 +193,38 @@ bool ConfigLoader::begin_table(std::string_view key, std::string_view /*doc*/, b
   return true;
 }
 
+std::size_t ConfigLoader::count_tables(std::string_view key, std::size_t present, std::size_t most) {
+  const Node* node = look_up(key);
+  if (node == nullptr || std::holds_alternative<Table>(node->value)) return node == nullptr ? present : 1;
+  const auto* items = std::get_if<std::vector<Node>>(&node->value);
+  if (items == nullptr) {
+    report_type(*node, key, "a table, or several: [[" + std::string(key) + "]]");
+    return present;
+  }
+  const auto is_table = [](const Node& item) { return std::holds_alternative<Table>(item.value); };
+  if (!std::all_of(items->begin(), items->end(), is_table)) {
+    report(*node, key, "every element must be a table: [[" + std::string(key) + "]]");
+    return present;
+  }
+  if (items->empty() || items->size() > most) {
+    report(*node, key, "are " + std::to_string(items->size()) + ", must be 1 to " + std::to_string(most));
+    return present;
+  }
+  return items->size();
+}
+
+void ConfigLoader::begin_table_of(std::string_view key, std::string_view /*doc*/, std::size_t index,
+                                  std::size_t count) {
+  const Node* node = look_up(key);
+  const Table* table = node == nullptr ? nullptr : std::get_if<Table>(&node->value);
+  if (const auto* items = node == nullptr ? nullptr : std::get_if<std::vector<Node>>(&node->value);
+      items != nullptr && items->size() == count)
+    table = std::get_if<Table>(&(*items)[index].value);
+  const std::string place =
+      count == 1 ? std::string(key) : std::string(key) + "[" + std::to_string(index) + "]";
+  scopes_.push_back({table, scopes_.back().path + place + ".", {}});
+}
+
 void ConfigLoader::end_table() {
   report_unknown_keys(scopes_.back());
   scopes_.pop_back();

@@ -33,6 +33,9 @@ class ConfigLoader final : public ConfigReader {
                     std::string_view doc) override;
   bool begin_table(std::string_view key, std::string_view doc, bool has_value) override;
   void end_table() override;
+  std::size_t count_tables(std::string_view key, std::size_t present, std::size_t most) override;
+  void begin_table_of(std::string_view key, std::string_view doc, std::size_t index,
+                      std::size_t count) override;
 
  private:
   struct Scope {

@@ -85,7 +85,16 @@ class ConfigPrinter final : public ConfigReader {
     std::string& out = sections_.back().tables;
     out += "\n";
     if (!done.doc.empty()) out += "# " + done.doc + "\n";
-    out += "[" + done.path + "]\n" + done.keys + done.tables;
+    out += (done.is_one_of_several ? "[[" + done.path + "]]\n" : "[" + done.path + "]\n") + done.keys +
+           done.tables;
+  }
+  std::size_t count_tables(std::string_view /*key*/, std::size_t present, std::size_t /*most*/) override {
+    return present;
+  }
+  void begin_table_of(std::string_view key, std::string_view doc, std::size_t /*index*/,
+                      std::size_t count) override {
+    (void)begin_table(key, doc, true);
+    sections_.back().is_one_of_several = count > 1;
   }
 
  private:
@@ -94,6 +103,7 @@ class ConfigPrinter final : public ConfigReader {
     std::string doc;
     std::string keys;
     std::string tables;
+    bool is_one_of_several = false;
   };
   void add(std::string_view key, const std::string& value, std::string_view doc, const std::string& allowed) {
     std::string& out = sections_.back().keys;

@@ -95,6 +95,22 @@ class ConfigReader {
     describe_inside(*value);
     end_table();
   }
+  /// One table or several: [key] or [[key]]. A file that has none leaves `values` as they are; else there
+  /// are as many as the file names, and those beyond the present ones begin as `fresh(index)`. One is printed
+  /// as [key], several as [[key]]. `describe_inside(T&)` visits the fields of each. Precondition: `values`
+  /// has 1..most elements.
+  template <typename T, typename Fresh, typename F>
+  void tables(std::string_view key, std::vector<T>& values, std::size_t most, std::string_view doc,
+              const Fresh& fresh, const F& describe_inside) {
+    const std::size_t count = count_tables(key, values.size(), most);
+    while (values.size() < count) values.push_back(fresh(values.size()));
+    values.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      begin_table_of(key, doc, i, count);
+      describe_inside(values[i]);
+      end_table();
+    }
+  }
   /// Reports a rule between fields that the ranges cannot say, at the place of `key` of the current table.
   virtual void problem(std::string_view key, std::string_view sentence) = 0;
 
@@ -114,6 +130,11 @@ class ConfigReader {
   /// True when the fields inside are to be visited; then end_table() follows.
   virtual bool begin_table(std::string_view key, std::string_view doc, bool has_value) = 0;
   virtual void end_table() = 0;
+  /// How many tables there are to visit, 1..most; `present`: where the file does not say.
+  virtual std::size_t count_tables(std::string_view key, std::size_t present, std::size_t most) = 0;
+  /// The `index`-th of `count` tables; end_table() follows.
+  virtual void begin_table_of(std::string_view key, std::string_view doc, std::size_t index,
+                              std::size_t count) = 0;
 
  private:
   /// The shortest decimal that reads back as this float: 0.6F is 0.6, not 0.60000002384185791.

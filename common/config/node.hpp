@@ -31,8 +31,9 @@ struct Entry {
 
 /// The value at `key`, or null.
 [[nodiscard]] const Node* find(const Table& table, std::string_view key);
-/// Puts `from` into `into`: tables are merged, anything else is replaced.
-void merge(Table& into, Table&& from);
+/// Puts `from` into `into`: tables are merged, also those of a list by their place (lidar.1.name), anything
+/// else is replaced. kInvalidConfig where a place is none of the list's, or is not said.
+[[nodiscard]] Status merge(Table& into, Table&& from);
 /// "a table", "a whole number", ...: for messages.
 [[nodiscard]] std::string_view kind_name(const Node& node);
 

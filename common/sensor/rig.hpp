@@ -6,8 +6,10 @@
 #include "common/geometry/camera_model.hpp"
 #include "common/geometry/rigid_transform.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace edgesplat::sensor {
 
@@ -35,13 +37,31 @@ struct CameraMount {
   double stamp_delay_s = 0.0;  ///< added to the frame's stamp to get the middle of the exposure
 };
 
-/// Which sensors the robot carries and where. Body = IMU frame; without an IMU body = LiDAR frame.
+/// One LiDAR on the body.
+struct LidarMount {
+  LidarModel model;
+  geometry::RigidTransform body_from_lidar;
+};
+
+/// More LiDARs a robot cannot have.
+inline constexpr std::size_t kMostLidars = 8;
+
+/// Which sensors the robot carries and where. Body = IMU frame; without an IMU body = frame of the first
+/// LiDAR. LiDARs are numbered from 0 ("unit"); the IMU is that of the first, unless it is on a line of its
+/// own.
 struct Rig {
   std::string name = "unnamed";
-  LidarModel lidar;
-  geometry::RigidTransform body_from_lidar;
+  LidarModel lidar;                          ///< the first
+  geometry::RigidTransform body_from_lidar;  ///< where the first sits
+  std::vector<LidarMount> more_lidars;       ///< units 1, 2, ...; fewer than kMostLidars
   std::optional<ImuModel> imu;
   std::optional<CameraMount> camera;
+
+  [[nodiscard]] std::size_t lidar_count() const { return 1 + more_lidars.size(); }
+  /// Precondition: unit < lidar_count().
+  [[nodiscard]] LidarMount mount_of(std::size_t unit) const {
+    return unit == 0 ? LidarMount{lidar, body_from_lidar} : more_lidars.at(unit - 1);
+  }
 };
 
 }  // namespace edgesplat::sensor

@@ -28,8 +28,8 @@ void describe_transform(config::ConfigReader& reader, geometry::RigidTransform& 
   }
 }
 
-void describe_lidar(config::ConfigReader& reader, Rig& rig) {
-  LidarModel& lidar = rig.lidar;
+void describe_lidar(config::ConfigReader& reader, LidarMount& mount) {
+  LidarModel& lidar = mount.model;
   reader.field("name", lidar.name, "model, for people");
   reader.field("range_sigma_m", lidar.range_sigma_m, Range{1e-4, 1.0}, "1 sigma along the ray");
   reader.field("bearing_sigma_rad", lidar.bearing_sigma_rad, Range{1e-6, 0.1}, "1 sigma across the ray");
@@ -37,7 +37,18 @@ void describe_lidar(config::ConfigReader& reader, Rig& rig) {
   reader.field("max_range_m", lidar.max_range_m, Range{1.0, 1000.0}, "farther returns are dropped");
   if (lidar.min_range_m >= lidar.max_range_m) reader.problem("min_range_m", "must be below max_range_m");
   reader.table("body_from_lidar", "where the LiDAR sits",
-               [&] { describe_transform(reader, rig.body_from_lidar); });
+               [&] { describe_transform(reader, mount.body_from_lidar); });
+}
+
+void describe_lidars(config::ConfigReader& reader, Rig& rig) {
+  std::vector<LidarMount> mounts;
+  for (std::size_t unit = 0; unit < rig.lidar_count(); ++unit) mounts.push_back(rig.mount_of(unit));
+  reader.tables(
+      "lidar", mounts, kMostLidars, "noise and limits from the data sheet; the first one's IMU is the body",
+      [](std::size_t) { return LidarMount{}; }, [&](LidarMount& mount) { describe_lidar(reader, mount); });
+  rig.lidar = mounts.front().model;
+  rig.body_from_lidar = mounts.front().body_from_lidar;
+  rig.more_lidars.assign(mounts.begin() + 1, mounts.end());
 }
 
 void describe_imu(config::ConfigReader& reader, ImuModel& imu) {
@@ -77,7 +88,7 @@ void describe_camera(config::ConfigReader& reader, CameraMount& camera) {
 
 void describe(config::ConfigReader& reader, Rig& rig) {
   reader.field("name", rig.name, "of the robot or data set");
-  reader.table("lidar", "noise and limits from the data sheet", [&] { describe_lidar(reader, rig); });
+  describe_lidars(reader, rig);
   reader.optional_table("imu", rig.imu, "absent: no IMU, body = LiDAR frame",
                         [&](ImuModel& imu) { describe_imu(reader, imu); });
   reader.optional_table("camera", rig.camera, "absent: no camera",

@@ -12,7 +12,8 @@
 
 namespace edgesplat::sensor {
 
-/// The fields of rig.toml: [lidar] with [lidar.body_from_lidar], [imu] and [camera] where the robot has them.
+/// The fields of rig.toml: [lidar] with [lidar.body_from_lidar], or [[lidar]] for each of several, [imu] and
+/// [camera] where the robot has them.
 void describe(config::ConfigReader& reader, Rig& rig);
 
 /// Parses the text of a rig.toml; `name` is for messages. Errors: kInvalidConfig with every problem.

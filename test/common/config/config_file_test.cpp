@@ -182,6 +182,76 @@ TEST(ConfigFile, PrintedConfigReadsBackTheSame) {
   EXPECT_EQ(after.inner.seed, before.inner.seed);
 }
 
+struct Flock {
+  std::vector<Inner> birds{Inner{}};
+};
+void describe(ConfigReader& reader, Flock& flock) {
+  const auto fresh = [](std::size_t index) { return Inner{2.0 + static_cast<double>(index), 7}; };
+  reader.tables("bird", flock.birds, 3, "each of them", fresh, [&](Inner& bird) { describe(reader, bird); });
+}
+
+std::string flock_errors(const std::string& text, const std::string& override_text = "") {
+  Result<ConfigFile> file = ConfigFile::parse(text, "a.toml");
+  if (!file) return file.error().context;
+  if (!override_text.empty()) {
+    if (const Status set = file->apply_override(override_text); !set) return set.error().context;
+  }
+  Flock flock;
+  const Status status = file->read_into(flock);
+  return status ? "" : status.error().context;
+}
+
+TEST(ConfigFile, ATableMayBeOneOrSeveral) {
+  const auto read = [](const std::string& text) {
+    Flock flock;
+    const auto file = ConfigFile::parse(text, "a.toml");
+    EXPECT_TRUE(file.has_value());
+    EXPECT_TRUE(file->read_into(flock).has_value());
+    return flock.birds;
+  };
+  ASSERT_EQ(read("").size(), 1U);
+  EXPECT_EQ(read("").front().gain, 1.5);
+  ASSERT_EQ(read("[bird]\ngain = 4.0").size(), 1U);
+  EXPECT_EQ(read("[bird]\ngain = 4.0").front().gain, 4.0);
+  const auto three = read("[[bird]]\ngain = 4.0\n[[bird]]\nseed = 9\n[[bird]]");
+  ASSERT_EQ(three.size(), 3U);
+  EXPECT_EQ(three[0].gain, 4.0);
+  EXPECT_EQ(three[1].gain, 3.0);  // as a fresh one begins
+  EXPECT_EQ(three[1].seed, 9U);
+  EXPECT_EQ(three[2].gain, 4.0);
+  Flock flock{three};
+  const std::string printed = to_toml(flock);
+  EXPECT_THAT(printed, HasSubstr("[[bird]]"));
+  ASSERT_EQ(read(printed).size(), 3U);
+  EXPECT_EQ(read(printed)[1].seed, 9U);
+  flock.birds.resize(1);
+  EXPECT_THAT(to_toml(flock), HasSubstr("\n[bird]\n"));
+}
+
+TEST(ConfigFile, ProblemsOfOneOfSeveralTablesSayOfWhich) {
+  EXPECT_THAT(flock_errors("[[bird]]\n[[bird]]\ngian = 1.0"),
+              HasSubstr("a.toml:3: bird[1].gian: unknown key, did you mean \"gain\"?"));
+  EXPECT_THAT(flock_errors("[[bird]]\ngain = 11.0\n[[bird]]"), HasSubstr("a.toml:2: bird[0].gain: 11"));
+  EXPECT_THAT(flock_errors("bird = 3"), HasSubstr("must be a table, or several: [[bird]]"));
+  EXPECT_THAT(flock_errors("bird = [1, 2]"), HasSubstr("every element must be a table"));
+  EXPECT_THAT(flock_errors("bird = []"), HasSubstr("bird: are 0, must be 1 to 3"));
+  EXPECT_THAT(flock_errors("[[bird]]\n[[bird]]\n[[bird]]\n[[bird]]"), HasSubstr("are 4, must be 1 to 3"));
+}
+
+TEST(ConfigFile, OverridesReachOneOfSeveralTablesByItsPlace) {
+  auto file = ConfigFile::parse("[[bird]]\ngain = 4.0\n[[bird]]", "a.toml");
+  ASSERT_TRUE(file.has_value());
+  ASSERT_TRUE(file->apply_override("bird.1.gain=5.5").has_value());
+  Flock flock;
+  ASSERT_TRUE(file->read_into(flock).has_value());
+  EXPECT_EQ(flock.birds[0].gain, 4.0);
+  EXPECT_EQ(flock.birds[1].gain, 5.5);
+  EXPECT_THAT(flock_errors("[[bird]]\n[[bird]]", "bird.gain=1"), HasSubstr("say which, as bird.0.KEY"));
+  EXPECT_THAT(flock_errors("[[bird]]\n[[bird]]", "bird.2.gain=1"), HasSubstr("to bird.1.KEY"));
+  EXPECT_THAT(flock_errors("[[bird]]\n[[bird]]", "bird.1=1"), HasSubstr("say which"));
+  EXPECT_EQ(flock_errors("[bird]", "bird.gain=1"), "");
+}
+
 TEST(ConfigFile, SurvivesHostileText) {
   std::string dots = "a";
   for (int i = 0; i < 100000; ++i) dots += ".a";

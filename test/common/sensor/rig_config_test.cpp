@@ -43,6 +43,39 @@ TEST(RigConfig, PrintsAndReadsBack) {
   EXPECT_EQ(after->camera->stamp_delay_s, -0.004);
 }
 
+TEST(RigConfig, OneLidarIsATableAndSeveralAreAList) {
+  Rig before = full_rig();
+  EXPECT_THAT(print_rig(before), HasSubstr("\n[lidar]\n"));
+  LidarMount second;
+  second.model.name = "mid360";
+  second.model.range_sigma_m = 0.03;
+  second.body_from_lidar = {Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0), {-0.3, 0.1, 0.2}};
+  before.more_lidars.push_back(second);
+  EXPECT_THAT(print_rig(before), HasSubstr("\n[[lidar]]\n"));
+  const Result<Rig> after = parse_rig(print_rig(before), "rig.toml");
+  ASSERT_TRUE(after) << after.error().context;
+  ASSERT_EQ(after->lidar_count(), 2U);
+  EXPECT_EQ(after->lidar.name, "avia");
+  EXPECT_EQ(after->mount_of(0).body_from_lidar.translation_m, before.body_from_lidar.translation_m);
+  EXPECT_EQ(after->mount_of(1).model.name, "mid360");
+  EXPECT_EQ(after->mount_of(1).model.range_sigma_m, 0.03);
+  EXPECT_EQ(after->mount_of(1).body_from_lidar.translation_m, second.body_from_lidar.translation_m);
+  EXPECT_EQ(after->mount_of(1).body_from_lidar.rotation.coeffs(), second.body_from_lidar.rotation.coeffs());
+}
+
+TEST(RigConfig, SaysWhichOfSeveralLidarsIsWrong) {
+  const Result<Rig> crossed =
+      parse_rig("[[lidar]]\n[[lidar]]\nmin_range_m = 50.0\nmax_range_m = 10.0", "r.toml");
+  ASSERT_FALSE(crossed);
+  EXPECT_THAT(crossed.error().context,
+              HasSubstr("r.toml:3: lidar[1].min_range_m: must be below max_range_m"));
+  std::string nine;
+  for (int i = 0; i < 9; ++i) nine += "[[lidar]]\n";
+  const Result<Rig> many = parse_rig(nine, "r.toml");
+  ASSERT_FALSE(many);
+  EXPECT_THAT(many.error().context, HasSubstr("lidar: are 9, must be 1 to 8"));
+}
+
 TEST(RigConfig, SensorsThatAreAbsentStayAbsent) {
   const Result<Rig> rig = parse_rig(print_rig(Rig{}), "rig.toml");
   ASSERT_TRUE(rig) << rig.error().context;
