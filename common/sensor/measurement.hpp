@@ -40,7 +40,8 @@ struct LidarPacket {
   SensorTime stamp{};  ///< of the first ray
   HostTime arrival{};
   StampSource stamp_source = StampSource::kFreeRunning;
-  nanoseconds span{};  ///< first ray to last ray
+  nanoseconds span{};     ///< first ray to last ray
+  std::uint8_t unit = 0;  ///< which of the rig's LiDARs
   std::vector<LidarPoint> points;
 };
 

@@ -21,16 +21,23 @@ struct GroupBuilderConfig {
   double period_s = 0.1;      ///< cut this often where no image tells when, [0.01, 1]
   double image_gap_s = 0.3;   ///< images further apart than this: periodic cuts in between, [0.05, 5]
   double image_wait_s = 0.1;  ///< how far an image may lag behind the points before it is missed, [0, 1]
-  double sensor_gap_s = 0.5;  ///< LiDAR or IMU silent for this long: go on without it, [0.05, 5]
+  double sensor_gap_s = 0.5;  ///< a LiDAR or the IMU silent for this long: go on without it, [0.05, 5]
   double image_tolerance_s = 0.02;   ///< between a whole scan and its image, [0, 0.1]
   double disagree_limit_s = 0.5e-3;  ///< two disciplined clocks further apart: one of them lies, [1e-5, 0.1]
   bool imu_has_own_clock = false;    ///< it is not the LiDAR's
-  std::size_t max_points = 1'000'000;  ///< 5 s of a Mid-360, 24 MB
+  std::size_t max_points = 1'000'000;  ///< of each LiDAR: 5 s of a Mid-360, 24 MB
   std::size_t max_imu_samples = 5'000;
   std::size_t max_images = 32;
   std::size_t max_image_bytes = std::size_t{128} << 20U;
   std::size_t max_scans = 8;
   ClockMapConfig clock;
+};
+
+/// What became of one LiDAR's points.
+struct LidarCounters {
+  std::uint64_t points = 0;  ///< that went into groups
+  std::uint64_t outs = 0;    ///< times that it fell silent and groups went on without it
+  bool is_out = false;       ///< now
 };
 
 /// Everything that did not go straight into a group.
@@ -48,16 +55,18 @@ struct GroupCounters {
   std::uint64_t overflow_images = 0;
   std::uint64_t unused_images = 0;  ///< no scan near them, or after the last points
   std::uint64_t late_scans = 0;
-  std::uint64_t bad_values = 0;     ///< measurements that are not finite or without content
-  std::uint64_t clock_changes = 0;  ///< a device's clock jumped or got another source
-  std::uint64_t clock_lies = 0;     ///< a clock said it was disciplined and drifted: fitted from then on
+  std::uint64_t bad_values = 0;       ///< measurements that are not finite or without content
+  std::uint64_t clock_changes = 0;    ///< a device's clock jumped or got another source
+  std::uint64_t clock_lies = 0;       ///< a clock said it was disciplined and was not: fitted from then on
+  std::vector<LidarCounters> lidars;  ///< by unit
 };
 
 /// Measurements in arrival order to groups in time order. Cuts at the middle of each exposure while the rig's
-/// camera delivers, else every period_s; a group leaves when LiDAR and IMU are both newer than its end (or
-/// silent for sensor_gap_s). Whole scans make one group each, with the nearest image. Every point ends in
-/// exactly one group or one counter. With synchronised clocks the result depends on the stamps only, not on
-/// how arrivals interleave, as long as images lag less than image_wait_s. Single-owner; cost O(points).
+/// camera delivers, else every period_s; a group leaves when all LiDARs and the IMU are newer than its end
+/// (or silent for sensor_gap_s, which only then are not waited for). The points of all LiDARs make one group.
+/// Whole scans make one group each, with the nearest image. Every point ends in exactly one group or one
+/// counter. With synchronised clocks the result depends on the stamps only, not on how arrivals interleave,
+/// as long as images lag less than image_wait_s. Single-owner; cost O(points).
 class GroupBuilder {
  public:
   GroupBuilder(const GroupBuilderConfig& config, const sensor::Rig& rig);

@@ -3,6 +3,7 @@
 #include "robot/sync/group_stages.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -18,12 +19,13 @@ GroupBuilder::Stages::Stages(const GroupBuilderConfig& config, const sensor::Rig
     : config_(config),
       has_imu_(rig.imu.has_value()),
       has_camera_(rig.camera.has_value()),
-      time_base_(config.clock, config.disagree_limit_s, config.imu_has_own_clock),
-      points_(config.max_points),
+      time_base_(config.clock, config.disagree_limit_s, config.imu_has_own_clock, rig.lidar_count()),
       imu_(config.max_imu_samples),
       images_(config.max_images, config.max_image_bytes),
       scans_(config.max_scans) {
   if (has_camera_) stamp_delay_ = from_seconds(rig.camera->stamp_delay_s);
+  for (std::size_t unit = 0; unit < rig.lidar_count(); ++unit)
+    lidars_.push_back({PointBuffer(config.max_points, static_cast<std::uint8_t>(unit)), {}, {}});
 }
 
 void GroupBuilder::Stages::take_in(sensor::Measurement& measurement) {
@@ -44,12 +46,17 @@ void GroupBuilder::Stages::take_in(const sensor::ImuSample& sample) {
 }
 
 void GroupBuilder::Stages::take_in(sensor::LidarPacket& packet) {
+  if (packet.unit >= lidars_.size()) {
+    ++counters_.bad_values;
+    return;
+  }
   // A packet leaves the device after its last ray: that moment relates stamp and arrival.
-  const HostTime last_ray =
-      time_base_.to_host(Stream::kPoints, packet.stamp + packet.span, packet.arrival, packet.stamp_source);
+  const HostTime last_ray = time_base_.to_host(points_of(packet.unit), packet.stamp + packet.span,
+                                               packet.arrival, packet.stamp_source);
   if (!first_seen_) first_seen_ = last_ray - packet.span;
-  lidar_progress_.advance(last_ray);
-  points_.push(last_ray - packet.span, std::move(packet.points));
+  Lidar& lidar = lidars_[packet.unit];
+  lidar.progress.advance(last_ray);
+  lidar.points.push(last_ray - packet.span, std::move(packet.points));
 }
 
 void GroupBuilder::Stages::take_in(sensor::LidarScan& scan) {
@@ -63,7 +70,7 @@ void GroupBuilder::Stages::take_in(sensor::LidarScan& scan) {
     return;
   }
   if (!first_seen_) first_seen_ = start;
-  lidar_progress_.advance(start);
+  lidars_.front().progress.advance(start);
 }
 
 void GroupBuilder::Stages::take_in(const sensor::CameraFrame& frame) {
@@ -94,9 +101,19 @@ std::vector<MeasureGroup> GroupBuilder::Stages::drain(bool all) {
 }
 
 std::optional<HostTime> GroupBuilder::Stages::newest_data() const {
-  if (!lidar_progress_.newest) return imu_progress_.newest;
-  if (!imu_progress_.newest) return lidar_progress_.newest;
-  return std::max(*lidar_progress_.newest, *imu_progress_.newest);
+  std::optional<HostTime> newest = imu_progress_.newest;
+  for (const Lidar& lidar : lidars_)
+    if (lidar.progress.newest && (!newest || *lidar.progress.newest > *newest))
+      newest = lidar.progress.newest;
+  return newest;
+}
+
+std::optional<HostTime> GroupBuilder::Stages::earliest_point() const {
+  std::optional<HostTime> earliest;
+  for (const Lidar& lidar : lidars_)
+    if (const auto first = lidar.points.earliest(); first && (!earliest || *first < *earliest))
+      earliest = first;
+  return earliest;
 }
 
 bool GroupBuilder::Stages::is_out(const Progress& stream) const {
@@ -104,23 +121,27 @@ bool GroupBuilder::Stages::is_out(const Progress& stream) const {
   return newest && *newest - stream.newest.value_or(*first_seen_) > from_seconds(config_.sensor_gap_s);
 }
 
-/// LiDAR and IMU are both newer than `t`, apart from one that fell silent.
+/// LiDARs and IMU are all newer than `t`, apart from those that fell silent.
 bool GroupBuilder::Stages::sensors_reached(HostTime t) const {
   const auto newest = newest_data();
   if (!newest || *newest < t) return false;
-  const bool lidar_ok = (lidar_progress_.newest && *lidar_progress_.newest > t) || is_out(lidar_progress_);
+  const bool lidars_ok = std::ranges::all_of(lidars_, [&](const Lidar& lidar) {
+    return (lidar.progress.newest && *lidar.progress.newest > t) || is_out(lidar.progress);
+  });
   const bool imu_ok =
       !has_imu_ || (imu_progress_.newest && *imu_progress_.newest >= t) || is_out(imu_progress_);
-  return lidar_ok && imu_ok;
+  return lidars_ok && imu_ok;
 }
 
-/// Once both sensors have begun (or one is out), groups begin with the first point, or IMU sample.
+/// Once all sensors have begun (or are out), groups begin with the first point, or IMU sample.
 bool GroupBuilder::Stages::decide_begin() {
   if (settled_) return true;
-  const auto newest = newest_data();
-  if (!newest || (!lidar_progress_.newest && !is_out(lidar_progress_))) return false;
-  if (has_imu_ && !imu_progress_.newest && !is_out(imu_progress_)) return false;
-  const auto first_point = points_.earliest();
+  if (!newest_data()) return false;
+  const auto is_missed = [&](const Progress& stream) { return !stream.newest && !is_out(stream); };
+  if (std::ranges::any_of(lidars_, [&](const Lidar& lidar) { return is_missed(lidar.progress); }))
+    return false;
+  if (has_imu_ && is_missed(imu_progress_)) return false;
+  const auto first_point = earliest_point();
   const auto first_imu = imu_.first_after(kBeforeAll);
   if (!first_point && !first_imu) return false;
   settled_ = (first_point ? *first_point : *first_imu) - nanoseconds(1);
@@ -129,7 +150,7 @@ bool GroupBuilder::Stages::decide_begin() {
 
 /// After a pause of all sensors the next group begins with the first thing measured, not with empty groups.
 void GroupBuilder::Stages::skip_silence() {
-  std::optional<HostTime> first = points_.earliest();
+  std::optional<HostTime> first = earliest_point();
   const auto first_imu = imu_.first_after(*settled_);
   if (!first || (first_imu && *first_imu < *first)) first = first_imu;
   if (first && *first - *settled_ > 2 * from_seconds(config_.sensor_gap_s))
@@ -171,7 +192,7 @@ MeasureGroup GroupBuilder::Stages::make_group(const Cut& cut) {
   MeasureGroup group;
   group.begin = cut.begin;
   group.end = cut.end;
-  group.points = points_.take(cut, clamp_limit(Stream::kPoints));
+  group.points = take_points(cut);
   group.imu = imu_.take(cut);
   if (images_.earliest() == cut.end) {
     group.image = images_.take_earliest();
@@ -180,6 +201,36 @@ MeasureGroup GroupBuilder::Stages::make_group(const Cut& cut) {
   settled_ = cut.end;
   count_group(group);
   return group;
+}
+
+/// One scan of all LiDARs, oldest ray first.
+std::vector<GroupPoint> GroupBuilder::Stages::take_points(const Cut& cut) {
+  const auto older = [](const GroupPoint& a, const GroupPoint& b) {
+    return a.before_end_ns > b.before_end_ns;
+  };
+  std::vector<GroupPoint> all;
+  for (std::size_t unit = 0; unit < lidars_.size(); ++unit) {
+    auto points = lidars_[unit].points.take(cut, clamp_limit(points_of(unit)));
+    lidars_[unit].counters.points += points.size();
+    if (all.empty()) {
+      all = std::move(points);
+      continue;
+    }
+    std::vector<GroupPoint> merged;
+    merged.reserve(all.size() + points.size());
+    std::merge(all.begin(), all.end(), points.begin(), points.end(), std::back_inserter(merged), older);
+    all = std::move(merged);
+  }
+  return all;
+}
+
+/// A LiDAR of several that is not waited for any more, or again.
+void GroupBuilder::Stages::note_outs() {
+  for (Lidar& lidar : lidars_) {
+    const bool out = is_out(lidar.progress);
+    if (out && !lidar.counters.is_out) ++lidar.counters.outs;
+    lidar.counters.is_out = out;
+  }
 }
 
 /// Its image has come or cannot come any more, and the IMU is past its end.
@@ -206,6 +257,7 @@ MeasureGroup GroupBuilder::Stages::make_scan_group(HostTime end) {
 
 void GroupBuilder::Stages::count_group(const MeasureGroup& group) {
   ++counters_.groups;
+  if (!whole_scans_) note_outs();
   if (has_camera_ && !group.image) ++counters_.groups_without_image;
   if (group.points.empty()) ++counters_.groups_without_points;
   if (has_imu_ && (group.imu.empty() || group.imu.back().stamp < group.end)) ++counters_.groups_without_imu;
@@ -213,9 +265,12 @@ void GroupBuilder::Stages::count_group(const MeasureGroup& group) {
 
 GroupCounters GroupBuilder::Stages::counters() const {
   GroupCounters all = counters_;
-  all.late_points += points_.late();
-  all.clamped_points = points_.clamped();
-  all.overflow_points = points_.overflow();
+  for (const Lidar& lidar : lidars_) {
+    all.late_points += lidar.points.late();
+    all.clamped_points += lidar.points.clamped();
+    all.overflow_points += lidar.points.overflow();
+    all.lidars.push_back(lidar.counters);
+  }
   all.late_imu = imu_.late();
   all.overflow_imu = imu_.overflow();
   all.overflow_images = images_.overflow();

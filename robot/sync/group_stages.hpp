@@ -50,6 +50,9 @@ class GroupBuilder::Stages {
   [[nodiscard]] bool sensors_reached(HostTime t) const;
   [[nodiscard]] bool is_out(const Progress& stream) const;
   [[nodiscard]] std::optional<HostTime> newest_data() const;
+  [[nodiscard]] std::optional<HostTime> earliest_point() const;
+  [[nodiscard]] std::vector<GroupPoint> take_points(const Cut& cut);
+  void note_outs();
   [[nodiscard]] MeasureGroup make_group(const Cut& cut);
 
   [[nodiscard]] bool scan_is_ready(HostTime end, bool all) const;
@@ -64,11 +67,16 @@ class GroupBuilder::Stages {
   bool whole_scans_ = false;  ///< the LiDAR delivers scans: they make the groups
   nanoseconds stamp_delay_{};
   TimeBase time_base_;
-  PointBuffer points_;
+  /// One LiDAR: its points, how far it has come, and whether it is waited for.
+  struct Lidar {
+    PointBuffer points;
+    Progress progress;
+    LidarCounters counters;
+  };
+  std::vector<Lidar> lidars_;  ///< by unit
   ImuBuffer imu_;
   ImageBuffer images_;
   ScanQueue scans_;
-  Progress lidar_progress_;
   Progress imu_progress_;
   std::optional<HostTime> first_seen_;  ///< of LiDAR or IMU
   std::optional<HostTime> settled_;     ///< end of the last group: the begin of the next

@@ -12,10 +12,11 @@
 namespace edgesplat::sync {
 
 struct GroupPoint {
-  Eigen::Vector3f p_in_lidar_m;  ///< in the LiDAR frame at the time of the ray
+  Eigen::Vector3f p_in_lidar_m;  ///< in the frame of its LiDAR at the time of the ray
   float reflectivity;            ///< 0..1
   std::int32_t before_end_ns;    ///< how long before the group's end the ray was fired, >= 0
   std::uint8_t noise_class;      ///< 0 good, 1 medium confidence
+  std::uint8_t unit = 0;         ///< which of the rig's LiDARs
 };
 
 struct GroupImu {
@@ -37,7 +38,7 @@ struct GroupImage {
 struct MeasureGroup {
   HostTime begin{};
   HostTime end{};
-  std::vector<GroupPoint> points;  ///< oldest first; may be empty
+  std::vector<GroupPoint> points;  ///< of all LiDARs, oldest first; may be empty
   bool has_point_times = true;     ///< false: all points as if measured at `end`
   /// Oldest first: every sample in (begin, end], the last one at or before `begin` and the first one at or
   /// after `end`, so that the state can be integrated exactly to `end`. Empty where the rig has no IMU.

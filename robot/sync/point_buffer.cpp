@@ -62,7 +62,7 @@ void PointBuffer::take_from(Packet& packet, const Cut& cut, nanoseconds clamp, s
       ++clamped_;
       t = cut.begin + nanoseconds(1);
     }
-    out.push_back({point.p_in_lidar_m, point.reflectivity, before_end(cut.end, t), point.noise_class});
+    out.push_back({point.p_in_lidar_m, point.reflectivity, before_end(cut.end, t), point.noise_class, unit_});
   }
 }
 

@@ -19,10 +19,11 @@ struct Cut {
   HostTime end{};
 };
 
-/// LiDAR packets waiting for their group, by time of their first ray. Single-owner.
+/// Packets of one LiDAR waiting for their group, by time of their first ray. Single-owner.
 class PointBuffer {
  public:
-  explicit PointBuffer(std::size_t max_points) : max_points_(max_points) {}
+  explicit PointBuffer(std::size_t max_points, std::uint8_t unit = 0)
+      : max_points_(max_points), unit_(unit) {}
 
   /// Keeps the packet; the oldest packets go where the buffer is full.
   void push(HostTime first_ray, std::vector<sensor::LidarPoint> points);
@@ -44,6 +45,7 @@ class PointBuffer {
   void take_from(Packet& packet, const Cut& cut, nanoseconds clamp, std::vector<GroupPoint>& out);
 
   std::size_t max_points_;
+  std::uint8_t unit_;
   std::size_t size_ = 0;  ///< points not yet taken
   std::deque<Packet> packets_;
   std::uint64_t late_ = 0;

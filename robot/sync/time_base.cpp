@@ -8,9 +8,12 @@
 namespace edgesplat::sync {
 namespace {
 
-constexpr double kSpan_ns = 5e9;       // long enough to see about the least latency
-constexpr double kScatterShare = 0.5;  // of mean lateness: the least of a span may be this far off
-constexpr int kStraysForJump = 5;      // one message that hung in the network is no jump of the clock
+constexpr double kSpan_ns = 5e9;                  // long enough to see about the least latency
+constexpr double kSameTime_ns = 5.5e9;            // ends of spans of two devices that both are heard
+constexpr double kScatterShare = 0.5;             // of mean lateness: the least of a span may be this far off
+constexpr std::int64_t kFarOff_ns = 500'000'000;  // more than any network delays a packet
+constexpr nanoseconds kReferencePatience = std::chrono::seconds(2);
+constexpr int kStraysForJump = 5;  // one message that hung in the network is no jump of the clock
 
 /// Of numbers that come from outside: may wrap, is never undefined.
 std::int64_t difference(std::int64_t a, std::int64_t b) {
@@ -21,16 +24,30 @@ bool is_disciplined(sensor::StampSource source) {
   return source != sensor::StampSource::kFreeRunning;
 }
 
-/// Watches a disciplined clock: messages may be late by a lot, only more than 1 s off is a jump.
-ClockMapConfig watching(ClockMapConfig config) {
-  config.jump_threshold_s = 1.0;
+}  // namespace
+
+TimeBase::TimeBase(const ClockMapConfig& config, double disagree_limit_s, bool imu_has_own_clock,
+                   std::size_t lidars)
+    : config_(config),
+      disagree_limit_ns_(disagree_limit_s * 1e9),
+      imu_has_own_clock_(imu_has_own_clock),
+      has_several_lidars_(lidars > 1) {}
+
+/// How a disciplined clock is watched: messages may be late by a lot, only more than 1 s off is a jump. A
+/// LiDAR's packets are not late, and a step ahead of one of several must not pass the others by.
+ClockMapConfig TimeBase::watching(Stream stream) const {
+  ClockMapConfig config = config_;
+  if (!has_several_lidars_ || !is_lidar(stream)) config.jump_threshold_s = 1.0;
   return config;
 }
 
-}  // namespace
-
-TimeBase::TimeBase(const ClockMapConfig& config, double disagree_limit_s, bool imu_has_own_clock)
-    : config_(config), disagree_limit_ns_(disagree_limit_s * 1e9), imu_has_own_clock_(imu_has_own_clock) {}
+/// The first that is heard of a LiDAR's disciplined clock is another time than the other clocks'.
+bool TimeBase::is_far_off(Stream stream, SensorTime stamp, HostTime arrival) const {
+  if (!has_several_lidars_ || !is_lidar(stream) || device(stream).learnt || !arrival_minus_base_ns_)
+    return false;
+  const std::int64_t off_ns = difference(difference(to_ns(arrival), to_ns(stamp)), *arrival_minus_base_ns_);
+  return off_ns > kFarOff_ns || off_ns < -kFarOff_ns;
+}
 
 HostTime TimeBase::to_host(Stream stream, SensorTime stamp, HostTime arrival, sensor::StampSource source) {
   if (base_ == Base::kUndecided) base_ = is_disciplined(source) ? Base::kStamps : Base::kArrivals;
@@ -69,7 +86,7 @@ void TimeBase::change_source(Stream stream, sensor::StampSource source) {
   d.exact = base_ == Base::kStamps && is_disciplined(source) && !d.jumped;
   d.learnt = false;
   d.least = {};
-  d.map = ClockMap(d.exact ? watching(config_) : config_);
+  d.map = ClockMap(d.exact ? watching(stream) : config_);
   if (d.exact && !reference_) reference_ = stream;
 }
 
@@ -78,11 +95,20 @@ void TimeBase::watch_exact(Stream stream, SensorTime stamp, HostTime arrival) {
   const bool stray = d.learnt && stamp < d.newest - std::chrono::seconds(1);
   d.strays = stray ? d.strays + 1 : 0;
   if (stray && d.strays < kStraysForJump) return;
+  if (reference_ != stream && is_far_off(stream, stamp, arrival)) {
+    ++lies_;
+    fit_from_now(d, 0);
+    return;
+  }
   observe(d, stamp, arrival);
   if (d.map.resets() > 0) {
     fit_from_now(d, 0);
     return;
   }
+  // One that fell silent says nothing of the host's clock any more.
+  if (has_several_lidars_ && is_lidar(stream) && reference_ != stream &&
+      arrival - device(*reference_).heard > kReferencePatience)
+    refer_to(stream);
   if (reference_ == stream) {
     arrival_minus_base_ns_ = offset_ns(d);
     look_for_lies();
@@ -99,8 +125,8 @@ void TimeBase::fit_from_now(Device& d, std::int64_t latency_ns) {
   d.latency_ns = latency_ns;
   d.map = ClockMap(config_);
   if (reference_ && !device(*reference_).exact) {
-    for (const Stream other : {Stream::kPoints, Stream::kImu, Stream::kCamera})
-      if (device(other).exact && device(other).learnt) reference_ = other;
+    for (std::size_t i = 0; i < kStreams; ++i)
+      if (devices_[i].exact && devices_[i].learnt) refer_to(static_cast<Stream>(i));
   }
 }
 
@@ -108,23 +134,52 @@ std::int64_t TimeBase::offset_ns(const Device& d) {
   return difference(to_ns(d.map.to_host(d.newest)), to_ns(d.newest));
 }
 
-/// Against the host's clock, since it was first known.
-double TimeBase::moved_ns(const Device& d) {
-  return static_cast<double>(difference(*d.least.newest_ns, *d.least.first_ns));
+/// What was compared with another reference means nothing any more.
+void TimeBase::refer_to(Stream stream) {
+  reference_ = stream;
+  for (Device& d : devices_) d.compared.reset();
+}
+
+/// Whether both have moved apart since they were first compared. Only what was measured at the same time
+/// compares: the host's clock drifts as well.
+bool TimeBase::is_lie(Device& d, const Device& reference) {
+  if (!d.exact || !d.least.newest_ns) {
+    d.compared.reset();
+    return false;
+  }
+  const auto apart_ns =
+      static_cast<double>(difference(to_ns(d.least.newest_end), to_ns(reference.least.newest_end)));
+  if (std::abs(apart_ns) > kSameTime_ns) return false;
+  if (!d.compared) d.compared = Compared{*d.least.newest_ns, *reference.least.newest_ns};
+  const auto moved_ns = static_cast<double>(difference(*d.least.newest_ns, d.compared->own_ns));
+  const auto reference_moved_ns =
+      static_cast<double>(difference(*reference.least.newest_ns, d.compared->reference_ns));
+  const double scatter_ns = 1e9 * kScatterShare * std::max(d.jitter_s, reference.jitter_s);
+  return std::abs(moved_ns - reference_moved_ns) > std::max(disagree_limit_ns_, scatter_ns);
 }
 
 void TimeBase::look_for_lies() {
-  Device* reference = &device(*reference_);
+  Device& reference = device(*reference_);
+  if (!reference.least.newest_ns) {
+    for (Device& d : devices_) d.compared.reset();
+    return;
+  }
   for (Device& d : devices_) {
-    if (&d == reference || !d.exact || !d.least.newest_ns || !reference->least.newest_ns) continue;
-    const double scatter_ns = 1e9 * kScatterShare * std::max(d.jitter_s, reference->jitter_s);
-    if (std::abs(moved_ns(d) - moved_ns(*reference)) <= std::max(disagree_limit_ns_, scatter_ns)) continue;
+    if (&d == &reference || !is_lie(d, reference)) continue;
     ++lies_;
-    // While both could be believed their stamps told how much longer its messages are on the way.
-    Device& liar = std::abs(moved_ns(d)) > std::abs(moved_ns(*reference)) ? d : *reference;
-    const Device& other = &liar == &d ? *reference : d;
-    const std::int64_t latency_ns = difference(*liar.least.first_ns, *other.least.first_ns);
-    fit_from_now(liar, latency_ns);
+    // The one that moved more against the host's clock. While both could be believed their stamps told how
+    // much longer its messages are on the way.
+    const Compared first = *d.compared;
+    const auto moved_ns = static_cast<double>(difference(*d.least.newest_ns, first.own_ns));
+    const auto reference_moved_ns =
+        static_cast<double>(difference(*reference.least.newest_ns, first.reference_ns));
+    const bool is_reference = std::abs(moved_ns) <= std::abs(reference_moved_ns);
+    const std::int64_t longer_ns = difference(first.own_ns, first.reference_ns);
+    if (is_reference) {
+      fit_from_now(reference, -longer_ns);
+    } else {
+      fit_from_now(d, longer_ns);
+    }
     return;
   }
 }
@@ -134,6 +189,7 @@ void TimeBase::observe(Device& d, SensorTime stamp, HostTime arrival) {
   d.map.observe(stamp, arrival);
   d.least.observe(stamp, difference(to_ns(arrival), to_ns(stamp)), !d.learnt || d.map.resets() != resets);
   d.newest = stamp;
+  d.heard = arrival;
   d.learnt = true;
   const double late_s = 1e-9 * static_cast<double>(difference(to_ns(arrival), to_ns(d.map.to_host(stamp))));
   constexpr double kSmoothing = 0.02;
@@ -148,8 +204,13 @@ double TimeBase::LeastDelay::drift_ppm() const {
 
 void TimeBase::LeastDelay::observe(SensorTime stamp, std::int64_t delay_ns, bool restart) {
   if (restart) *this = {stamp, delay_ns, std::nullopt, std::nullopt, {}, {}};
+  const auto passed_ns = static_cast<double>(difference(to_ns(stamp), to_ns(began)));
+  if (passed_ns > 2.0 * kSpan_ns) {  // it was silent: what was before says nothing of now
+    began = stamp;
+    running_ns = delay_ns;
+  }
   running_ns = std::min(running_ns, delay_ns);
-  if (static_cast<double>(difference(to_ns(stamp), to_ns(began))) < kSpan_ns) return;
+  if (passed_ns < kSpan_ns || began == stamp) return;
   if (!first_ns) {
     first_ns = running_ns;
     first_end = stamp;

@@ -3,17 +3,26 @@
 #pragma once
 
 #include "common/sensor/measurement.hpp"
+#include "common/sensor/rig.hpp"
 #include "common/time/clock_map.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
 namespace edgesplat::sync {
 
-/// A stream of stamps. The IMU sits in the LiDAR and shares its clock, unless the configuration says
-/// otherwise.
-enum class Stream : std::uint8_t { kPoints, kImu, kCamera };
+/// A stream of stamps. The IMU sits in the first LiDAR and shares its clock, unless the configuration says
+/// otherwise. Every LiDAR has a clock of its own.
+enum class Stream : std::uint8_t { kPoints, kImu, kCamera, kMorePoints };
+inline constexpr std::size_t kStreams = 2 + sensor::kMostLidars;
+
+/// The points of one of the rig's LiDARs. Precondition: unit < sensor::kMostLidars.
+[[nodiscard]] constexpr Stream points_of(std::size_t unit) {
+  return unit == 0 ? Stream::kPoints
+                   : static_cast<Stream>(static_cast<std::size_t>(Stream::kMorePoints) + unit - 1);
+}
 
 /// Puts the stamps of all devices on one time line. The first measurement decides which: if its clock is
 /// disciplined (PTP, GPS), stamps of disciplined devices pass unchanged and free-running ones are fitted to
@@ -22,11 +31,13 @@ enum class Stream : std::uint8_t { kPoints, kImu, kCamera };
 ///
 /// A device may say that its clock is disciplined when its master is long gone. Two such clocks that drift
 /// apart by more than `disagree_limit_s` since they were first seen show it; the one that moved more against
-/// the host's clock is no longer believed, and fitted like a free-running one. Single-owner.
+/// the host's clock is no longer believed, and fitted like a free-running one. Where there are several LiDARs
+/// the same becomes of one whose time is off by more than half a second when it is first heard (another
+/// master, another time scale) or steps ahead of its arrivals: it would pass the others by. Single-owner.
 class TimeBase {
  public:
   explicit TimeBase(const ClockMapConfig& config, double disagree_limit_s = 0.5e-3,
-                    bool imu_has_own_clock = false);
+                    bool imu_has_own_clock = false, std::size_t lidars = 1);
 
   /// The stamp on the common line. `stamp` should be the latest moment that the message tells about.
   [[nodiscard]] HostTime to_host(Stream stream, SensorTime stamp, HostTime arrival,
@@ -61,36 +72,48 @@ class TimeBase {
     [[nodiscard]] double drift_ppm() const;
     void observe(SensorTime stamp, std::int64_t delay_ns, bool restart);
   };
+  /// The least delays of a device and of the reference when they were first compared.
+  struct Compared {
+    std::int64_t own_ns = 0;
+    std::int64_t reference_ns = 0;
+  };
   struct Device {
     std::optional<sensor::StampSource> source;
     bool exact = false;
     bool jumped = false;  ///< a disciplined clock that jumped is fitted from then on
     bool learnt = false;
     SensorTime newest{};
-    int strays = 0;  ///< messages in a row that are far older than the newest
+    HostTime heard{};  ///< the newest arrival
+    int strays = 0;    ///< messages in a row that are far older than the newest
     ClockMap map;
     double jitter_s = 0.0;  ///< of arrivals, smoothed
     LeastDelay least;
+    std::optional<Compared> compared;  ///< with the reference, both disciplined
     std::int64_t latency_ns = 0;  ///< of its arrivals beyond those of the reference, as far as it is known
   };
   Device& device(Stream stream) { return devices_.at(static_cast<std::size_t>(stream)); }
   [[nodiscard]] const Device& device(Stream stream) const {
     return devices_.at(static_cast<std::size_t>(stream));
   }
+  [[nodiscard]] static bool is_lidar(Stream stream) { return stream != Stream::kCamera; }
+  [[nodiscard]] ClockMapConfig watching(Stream stream) const;
+  [[nodiscard]] bool is_far_off(Stream stream, SensorTime stamp, HostTime arrival) const;
   void change_source(Stream stream, sensor::StampSource source);
   void watch_exact(Stream stream, SensorTime stamp, HostTime arrival);
   void learn(Device& d, SensorTime stamp, HostTime arrival);
   void observe(Device& d, SensorTime stamp, HostTime arrival);
   void fit_from_now(Device& d, std::int64_t latency_ns);
   void look_for_lies();
+  [[nodiscard]] bool is_lie(Device& d, const Device& reference);
   [[nodiscard]] static std::int64_t offset_ns(const Device& d);
-  [[nodiscard]] static double moved_ns(const Device& d);
+  void refer_to(Stream stream);
 
   ClockMapConfig config_;
   double disagree_limit_ns_;
   bool imu_has_own_clock_;
+  bool has_several_lidars_;
   Base base_ = Base::kUndecided;
-  std::array<Device, 3> devices_;
+  std::array<Device, kStreams> devices_;
   std::optional<std::int64_t> arrival_minus_base_ns_;  ///< from a disciplined device, smallest latency
   std::optional<Stream> reference_;                    ///< the stream that arrival_minus_base_ns_ comes from
   std::uint64_t clock_changes_ = 0;
