@@ -84,11 +84,13 @@ void Tracker::MovingStart::remember(const sync::MeasureGroup& group, const Track
   }
   while (poses_.back().stamp - poses_.front().stamp > from_seconds(kLongestWindow_s))
     poses_.erase(poses_.begin());
-  EarlyScan scan{tracked.odom_from_body, tracked.pose_covariance, {}};
+  EarlyScan scan{tracked.odom_from_body, tracked.pose_covariance, {}, {}};
   const auto points = odometry_->sweep.points_in_body_m();
   for (const std::uint32_t i :
-       odometry_->map_downsampler.run(points, static_cast<float>(config_.map_voxel_m)))
+       odometry_->map_downsampler.run(points, static_cast<float>(config_.map_voxel_m))) {
     scan.points_in_body_m.push_back(points[i]);
+    scan.units.push_back(odometry_->sweep.units()[i]);
+  }
   scans_.push_back(std::move(scan));
   if (scans_.size() > kMaxScans) scans_.pop_front();
 }

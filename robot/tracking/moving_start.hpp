@@ -19,6 +19,7 @@ struct EarlyScan {
   geometry::RigidTransform odom_from_body;
   Eigen::Matrix<double, 6, 6> pose_covariance;
   std::vector<Eigen::Vector3f> points_in_body_m;  ///< thinned for the map
+  std::vector<std::uint8_t> units;                ///< which LiDAR measured them
 };
 
 /// What a start in motion gives.

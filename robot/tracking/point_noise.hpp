@@ -38,4 +38,13 @@ class PointNoise {
   float bearing_variance_;
 };
 
+/// Where the rays of one LiDAR begin, and how noisy they are.
+struct Beam {
+  Eigen::Vector3f lidar_in_body_m;
+  PointNoise noise;
+};
+[[nodiscard]] inline Beam beam_of(const sensor::LidarMount& mount) {
+  return {mount.body_from_lidar.translation_m.cast<float>(), PointNoise(mount.model)};
+}
+
 }  // namespace edgesplat::tracking

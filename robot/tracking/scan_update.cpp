@@ -36,8 +36,9 @@ struct PoseView {
   float model_variance_m2;
 };
 
-std::optional<MatchedPoint> linearise(const PlaneMatch& match, const Eigen::Vector3f& p_in_body,
-                                      const PoseView& pose, const ScanView& scan) {
+std::optional<MatchedPoint> linearise(const PlaneMatch& match, std::size_t point, const PoseView& pose,
+                                      const ScanView& scan) {
+  const Eigen::Vector3f& p_in_body = scan.points_in_body_m[point];
   const Plane& plane = *match.plane;
   const float residual = plane.normal.dot(match.from_centre_m);
   const float across = match.from_centre_m.squaredNorm() - residual * residual;
@@ -49,8 +50,7 @@ std::optional<MatchedPoint> linearise(const PlaneMatch& match, const Eigen::Vect
   line.residual_m = residual;
   line.row.head<3>() = p_in_body.cross(normal_in_body);
   line.row.tail<3>() = plane.normal;
-  line.point_variance_m2 =
-      pose.model_variance_m2 + scan.noise->variance_along(p_in_body - scan.lidar_in_body_m, normal_in_body);
+  line.point_variance_m2 = pose.model_variance_m2 + scan.variance_along(point, normal_in_body);
   line.plane_variance_m2 = plane.variance_at(match.from_centre_m);
   line.spread_m2 = line.point_variance_m2 + line.plane_variance_m2 + line.row.dot(pose.covariance * line.row);
   return line;
@@ -71,17 +71,18 @@ Matrix6f row_covariance(const Plane& plane, const Eigen::Vector3f& p_in_body, co
   return covariance;
 }
 
-MatchedPoint match_point(const Eigen::Vector3f& p_in_body, const PoseView& pose, const ScanView& scan,
-                         const PlaneMap& map, float gate_squared) {
-  const Eigen::Vector3d p_in_odom = pose.rotation_d * p_in_body.cast<double>() + pose.translation_m;
+MatchedPoint match_point(std::size_t point, const PoseView& pose, const ScanView& scan, const PlaneMap& map,
+                         float gate_squared) {
+  const Eigen::Vector3d p_in_odom =
+      pose.rotation_d * scan.points_in_body_m[point].cast<double>() + pose.translation_m;
   std::optional<MatchedPoint> line;
   if (const PlaneMatch match = map.find(p_in_odom); match.plane != nullptr) {
-    line = linearise(match, p_in_body, pose, scan);
+    line = linearise(match, point, pose, scan);
   }
   const bool inside = line && line->residual_m * line->residual_m < gate_squared * line->spread_m2;
   if (!inside) {
     if (const PlaneMatch match = map.find_beyond_face(p_in_odom); match.plane != nullptr) {
-      const auto beyond = linearise(match, p_in_body, pose, scan);
+      const auto beyond = linearise(match, point, pose, scan);
       if (beyond && (!line || std::abs(beyond->residual_m) < std::abs(line->residual_m))) line = beyond;
     }
   }
@@ -155,8 +156,7 @@ PlaneResiduals ScanUpdater::evaluate(const geometry::RigidTransform& odom_from_b
   const auto points = scan.points_in_body_m;
   matched_.resize(points.size());
   loop_.run(points.size(), kBlockSize, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      matched_[i] = match_point(points[i], pose, scan, map, gate_squared);
+    for (std::size_t i = first; i < last; ++i) matched_[i] = match_point(i, pose, scan, map, gate_squared);
   });
   count_sharers(map);
   partial_.assign(BlockLoop::blocks(points.size(), kBlockSize), PlaneResiduals{});

@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,8 +27,18 @@ struct ScanUpdateConfig {
 /// The points to be matched, and how noisy they are.
 struct ScanView {
   std::span<const Eigen::Vector3f> points_in_body_m;
-  Eigen::Vector3f lidar_in_body_m = Eigen::Vector3f::Zero();
-  const PointNoise* noise = nullptr;
+  Eigen::Vector3f lidar_in_body_m = Eigen::Vector3f::Zero();  ///< of the first LiDAR
+  const PointNoise* noise = nullptr;                          ///< of the first LiDAR
+  std::span<const Beam> more_beams = {};                      ///< of units 1, 2, ...
+  std::span<const std::uint8_t> units = {};  ///< the LiDAR of each point; empty: the first measured all
+
+  /// Of the i-th point along a direction in the body frame.
+  [[nodiscard]] float variance_along(std::size_t i, const Eigen::Vector3f& direction) const {
+    const Eigen::Vector3f& p = points_in_body_m[i];
+    if (units.empty() || units[i] == 0) return noise->variance_along(p - lidar_in_body_m, direction);
+    const Beam& beam = more_beams[units[i] - 1U];
+    return beam.noise.variance_along(p - beam.lidar_in_body_m, direction);
+  }
 };
 
 /// A point and the plane it was found to lie on.

@@ -18,10 +18,16 @@ std::int32_t clamp_ns(nanoseconds before_end) {
 }  // namespace
 
 Sweep::Sweep(const sensor::Rig& rig, double max_range_m, BlockLoop& loop)
-    : body_from_lidar_(rig.body_from_lidar),
-      min_range_m_(static_cast<float>(rig.lidar.min_range_m)),
-      max_range_m_(static_cast<float>(std::min(max_range_m, rig.lidar.max_range_m))),
-      loop_(loop) {}
+    : body_from_lidar_(rig.body_from_lidar), loop_(loop) {
+  for (std::size_t unit = 0; unit < rig.lidar_count(); ++unit) {
+    const sensor::LidarMount mount = rig.mount_of(unit);
+    const geometry::RigidTransform first_from_this = body_from_lidar_.inverse() * mount.body_from_lidar;
+    units_of_rig_.push_back({static_cast<float>(mount.model.min_range_m),
+                             static_cast<float>(std::min(max_range_m, mount.model.max_range_m)),
+                             first_from_this.rotation.toRotationMatrix().cast<float>(),
+                             first_from_this.translation_m.cast<float>()});
+  }
+}
 
 void Sweep::load(const sync::MeasureGroup& group, TrackingCounters& counters) {
   has_point_times_ = group.has_point_times;
@@ -30,14 +36,22 @@ void Sweep::load(const sync::MeasureGroup& group, TrackingCounters& counters) {
   points_in_lidar_m_.clear();
   before_end_ns_.clear();
   reflectivity_.clear();
+  units_.clear();
   for (const sync::GroupPoint& point : group.points) {
-    const float range_squared = point.p_in_lidar_m.squaredNorm();
-    if (!point.p_in_lidar_m.allFinite()) {
+    if (!point.p_in_lidar_m.allFinite() || point.unit >= units_of_rig_.size()) {
       ++counters.bad_points;
-    } else if (range_squared < min_range_m_ * min_range_m_ || range_squared > max_range_m_ * max_range_m_) {
+      continue;
+    }
+    const Unit& unit = units_of_rig_[point.unit];
+    const float range_squared = point.p_in_lidar_m.squaredNorm();
+    if (range_squared < unit.min_range_m * unit.min_range_m ||
+        range_squared > unit.max_range_m * unit.max_range_m) {
       ++counters.out_of_range_points;
     } else {
-      points_in_lidar_m_.push_back(point.p_in_lidar_m);
+      points_in_lidar_m_.push_back(
+          point.unit == 0 ? point.p_in_lidar_m
+                          : Eigen::Vector3f(unit.rotation * point.p_in_lidar_m + unit.translation_m));
+      units_.push_back(point.unit);
       before_end_ns_.push_back(has_point_times_ ? std::max(point.before_end_ns, 0) : 0);
       before_end_sum_ns += before_end_ns_.back();
       reflectivity_.push_back(point.reflectivity);

@@ -18,8 +18,8 @@
 
 namespace edgesplat::tracking {
 
-/// The usable points of one group, as columns, and their places in the body frame at one moment. Keeps
-/// its memory between groups. Thread-bound.
+/// The usable points of one group, of all LiDARs, as columns, and their places in the body frame at one
+/// moment. Keeps its memory between groups. Thread-bound.
 class Sweep {
  public:
   Sweep(const sensor::Rig& rig, double max_range_m, BlockLoop& loop);
@@ -35,18 +35,26 @@ class Sweep {
   [[nodiscard]] HostTime middle() const { return middle_; }
 
   [[nodiscard]] std::span<const Eigen::Vector3f> points_in_body_m() const { return points_in_body_m_; }
+  /// Which of the rig's LiDARs measured each point.
+  [[nodiscard]] std::span<const std::uint8_t> units() const { return units_; }
   /// The points moved on to another frame, with their reflectivity.
   [[nodiscard]] std::vector<DeskewedPoint> deskewed(const geometry::RigidTransform& target_from_body) const;
 
  private:
-  geometry::RigidTransform body_from_lidar_;
-  float min_range_m_;
-  float max_range_m_;
+  struct Unit {
+    float min_range_m;
+    float max_range_m;
+    Eigen::Matrix3f rotation;  ///< from this LiDAR's frame to the first one's
+    Eigen::Vector3f translation_m;
+  };
+  geometry::RigidTransform body_from_lidar_;  ///< the first
+  std::vector<Unit> units_of_rig_;
   BlockLoop& loop_;
   bool has_point_times_ = true;
   HostTime end_{};
   HostTime middle_{};
-  std::vector<Eigen::Vector3f> points_in_lidar_m_;
+  std::vector<Eigen::Vector3f> points_in_lidar_m_;  ///< in the first one's frame, when the ray was fired
+  std::vector<std::uint8_t> units_;
   std::vector<std::int32_t> before_end_ns_;
   std::vector<float> reflectivity_;
   std::vector<Eigen::Vector3f> points_in_body_m_;

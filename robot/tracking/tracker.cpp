@@ -15,12 +15,15 @@ Tracker::~Tracker() = default;
 
 Result<std::unique_ptr<Tracker>> Tracker::create(const TrackingConfig& config, const sensor::Rig& rig) {
   EDGESPLAT_TRY_STATUS(validate(config));
-  if (!rig.body_from_lidar.is_finite() || !(rig.lidar.range_sigma_m > 0.0) ||
-      !(rig.lidar.bearing_sigma_rad > 0.0)) {
+  for (std::size_t unit = 0; unit < rig.lidar_count(); ++unit) {
+    const sensor::LidarMount mount = rig.mount_of(unit);
+    if (mount.body_from_lidar.is_finite() && mount.model.range_sigma_m > 0.0 &&
+        mount.model.bearing_sigma_rad > 0.0)
+      continue;
     return fail(Errc::kInvalidConfig,
-                fmt::format("the LiDAR of rig \"{}\" has no usable noise or place: range_sigma_m and "
+                fmt::format("LiDAR {} of rig \"{}\" has no usable noise or place: range_sigma_m and "
                             "bearing_sigma_rad must be positive, body_from_lidar finite",
-                            rig.name));
+                            unit, rig.name));
   }
   return std::unique_ptr<Tracker>(new Tracker(std::make_unique<Impl>(config, rig)));
 }

@@ -55,6 +55,7 @@ Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in, 
       rest(rig_in.imu.value_or(sensor::ImuModel{})),
       with_imu(rig_in.imu.has_value()) {
   if (config.visual && rig.camera) visual.emplace(config, *rig.camera, loop);
+  for (const sensor::LidarMount& mount : rig.more_lidars) more_beams.push_back(beam_of(mount));
   if (with_imu && gravity == Gravity::kFelt) moving_start = std::make_unique<MovingStart>(config, rig);
 }
 Tracker::Impl::~Impl() = default;
@@ -159,14 +160,22 @@ void Tracker::Impl::pick_scan_points() {
   const auto wanted = static_cast<std::size_t>(config.max_scan_points);
   const std::size_t count = std::min(kept.size(), wanted);
   scan_points_m.clear();
-  for (std::size_t i = 0; i < count; ++i) scan_points_m.push_back(points[kept[i * kept.size() / count]]);
+  scan_units.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t point = kept[i * kept.size() / count];
+    scan_points_m.push_back(points[point]);
+    scan_units.push_back(sweep.units()[point]);
+  }
+}
+
+ScanView Tracker::Impl::scan_view() const {
+  return {scan_points_m, rig.body_from_lidar.translation_m.cast<float>(), &noise, more_beams, scan_units};
 }
 
 ScanUpdateResult Tracker::Impl::match(const Prediction& prediction, const FilterState& start) {
   sweep.deskew(prediction.path, start.odom_from_body.inverse());
   pick_scan_points();
-  return updater.run(prediction.belief, start,
-                     {scan_points_m, rig.body_from_lidar.translation_m.cast<float>(), &noise}, map);
+  return updater.run(prediction.belief, start, scan_view(), map);
 }
 
 ScanUpdateResult Tracker::Impl::update(Prediction& prediction, HostTime at) {
@@ -276,7 +285,7 @@ TrackedGroup Tracker::Impl::start_in_motion(const sync::MeasureGroup& group) {
   for (const EarlyScan& scan : started->scans) {
     std::vector<std::uint32_t> all(scan.points_in_body_m.size());
     std::iota(all.begin(), all.end(), 0U);
-    insert_points(scan.points_in_body_m, all, scan.odom_from_body, scan.pose_covariance);
+    insert_points(scan.points_in_body_m, scan.units, all, scan.odom_from_body, scan.pose_covariance);
   }
   sweep.deskew(started->path, belief->state.odom_from_body.inverse());
   started.reset();

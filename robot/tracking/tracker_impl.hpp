@@ -62,6 +62,7 @@ struct Tracker::Impl {
   void begin_again();
   [[nodiscard]] bool unmapped(const ScanUpdateResult& result) const;
   void pick_scan_points();
+  [[nodiscard]] ScanView scan_view() const;
   /// Rest tells the speed along what the LiDAR does not see.
   void use_rest(const ScanUpdateResult& result);
   /// The picture's update, at the moment of the LiDAR's.
@@ -77,7 +78,8 @@ struct Tracker::Impl {
   Gravity gravity;
   TrackingCounters counters;
   BlockLoop loop;
-  PointNoise noise;
+  PointNoise noise;              ///< of the first LiDAR
+  std::vector<Beam> more_beams;  ///< of the others
   PlaneMap map;
   ScanUpdater updater;
   Sweep sweep;
@@ -102,6 +104,7 @@ struct Tracker::Impl {
   pointcloud::VoxelDownsampler scan_downsampler;
   pointcloud::VoxelDownsampler map_downsampler;
   std::vector<Eigen::Vector3f> scan_points_m;  ///< matched against the map
+  std::vector<std::uint8_t> scan_units;        ///< which LiDAR measured them
   std::vector<MapPoint> map_points;
 };
 

@@ -42,8 +42,7 @@ std::optional<ScanUpdateResult> Tracker::Impl::look_for_pose(const Prediction& p
   for (const auto& pose : likely_poses(map, scan_points_m, guess, search, loop, kLikelyPoses)) {
     FilterState start = prediction.belief.state;
     start.odom_from_body = pose;
-    const ScanUpdateResult found = updater.run(
-        wide, start, {scan_points_m, rig.body_from_lidar.translation_m.cast<float>(), &noise}, map);
+    const ScanUpdateResult found = updater.run(wide, start, scan_view(), map);
     const bool seen = static_cast<std::size_t>(found.last.used) * 2 > scan_points_m.size();
     if (!keeper.fits(found) || !seen || (best && best->last.used >= found.last.used)) continue;
     best = found;
@@ -106,23 +105,26 @@ void Tracker::Impl::extend_map(const ScanUpdateResult& result) {
   }
   const auto points = sweep.points_in_body_m();
   const auto kept = map_downsampler.run(points, static_cast<float>(config.map_voxel_m));
-  insert_points(points, kept, belief->state.odom_from_body, belief->covariance.topLeftCorner<6, 6>());
+  insert_points(points, sweep.units(), kept, belief->state.odom_from_body,
+                belief->covariance.topLeftCorner<6, 6>());
   map.slide(belief->state.odom_from_body.translation_m);
 }
 
 void Tracker::Impl::insert_points(std::span<const Eigen::Vector3f> points,
-                                  std::span<const std::uint32_t> kept, const geometry::RigidTransform& pose,
-                                  const Matrix6d& pose_covariance) {
+                                  std::span<const std::uint8_t> units, std::span<const std::uint32_t> kept,
+                                  const geometry::RigidTransform& pose, const Matrix6d& pose_covariance) {
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   const Eigen::Matrix3f rotation_f = rotation.cast<float>();
   const Eigen::Matrix3f rotation_noise = pose_covariance.block<3, 3>(kRot, kRot).cast<float>();
   const Eigen::Matrix3f position_noise = pose_covariance.block<3, 3>(kPos, kPos).cast<float>();
-  const Eigen::Vector3f lidar_in_body = rig.body_from_lidar.translation_m.cast<float>();
+  const Beam first_beam{rig.body_from_lidar.translation_m.cast<float>(), noise};
   map_points.resize(kept.size());
   loop.run(kept.size(), kBlockSize, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Eigen::Vector3f& p = points[kept[i]];
-      const Eigen::Matrix3f in_body = noise.covariance(p - lidar_in_body);
+      const std::uint8_t unit = units[kept[i]];
+      const Beam& beam = unit == 0 ? first_beam : more_beams[unit - 1U];
+      const Eigen::Matrix3f in_body = beam.noise.covariance(p - beam.lidar_in_body_m);
       Eigen::Matrix3f lever;
       lever << 0.0F, -p.z(), p.y(), p.z(), 0.0F, -p.x(), -p.y(), p.x(), 0.0F;
       const Eigen::Matrix3f turned = rotation_f * lever;

@@ -4,7 +4,9 @@
 
 #include "common/base/check.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace edgesplat::test {
 namespace {
@@ -13,12 +15,13 @@ HostTime stamp_at(double time_s) {
   return host_time_from_ns(1'000'000'000) + from_seconds(time_s);
 }
 
-sensor::Rig mid360_rig(bool with_imu) {
+sensor::Rig mid360_rig(const SimulatedDriveConfig& config) {
   sensor::Rig rig;
   rig.name = "simulated mid360";
   rig.body_from_lidar.translation_m = Eigen::Vector3d(-0.011, -0.02329, 0.04412);  // the data sheet's
   rig.lidar.bearing_sigma_rad = 0.0013;
-  if (with_imu) rig.imu = sensor::ImuModel{};
+  rig.more_lidars = config.more_lidars;
+  if (config.with_imu) rig.imu = sensor::ImuModel{};
   return rig;
 }
 
@@ -28,11 +31,12 @@ simulate::Trajectory drive(const simulate::World& world, const simulate::Traject
   return *std::move(trajectory);
 }
 
-simulate::LidarSensorConfig lidar_config(const sensor::Rig& rig, const SimulatedDriveConfig& config) {
+simulate::LidarSensorConfig lidar_config(const sensor::Rig& rig, const SimulatedDriveConfig& config,
+                                         std::size_t unit) {
   simulate::LidarSensorConfig lidar;
-  lidar.body_from_lidar = rig.body_from_lidar;
+  lidar.body_from_lidar = rig.mount_of(unit).body_from_lidar;
   lidar.noise.noisy = config.noisy;
-  lidar.seed = config.seed;
+  lidar.seed = config.seed + 1000 * unit;
   return lidar;
 }
 
@@ -47,10 +51,12 @@ simulate::ImuSensorConfig imu_config(const SimulatedDriveConfig& config) {
 
 SimulatedDrive::SimulatedDrive(const simulate::World& world, const SimulatedDriveConfig& config)
     : config_(config),
-      rig_(mid360_rig(config.with_imu)),
+      rig_(mid360_rig(config)),
       trajectory_(drive(world, config.trajectory)),
-      lidar_(world, trajectory_, lidar_config(rig_, config)),
-      imu_(trajectory_, imu_config(config)) {}
+      imu_(trajectory_, imu_config(config)) {
+  for (std::size_t unit = 0; unit < rig_.lidar_count(); ++unit)
+    lidars_.emplace_back(world, trajectory_, lidar_config(rig_, config, unit));
+}
 
 simulate::BodyState SimulatedDrive::truth(HostTime stamp) const {
   return trajectory_.at(to_seconds(stamp - stamp_at(0.0)));
@@ -64,20 +70,22 @@ std::optional<sync::MeasureGroup> SimulatedDrive::next() {
   sync::MeasureGroup group;
   group.begin = stamp_at(begin_s);
   group.end = stamp_at(end_s);
-  add_points(group, begin_s, end_s);
+  for (std::size_t unit = 0; unit < lidars_.size(); ++unit) add_points(group, begin_s, end_s, unit);
+  std::ranges::stable_sort(group.points, std::ranges::greater(), &sync::GroupPoint::before_end_ns);
   if (config_.with_imu) add_imu(group, begin_s, end_s);
   return group;
 }
 
-void SimulatedDrive::add_points(sync::MeasureGroup& group, double begin_s, double end_s) const {
+void SimulatedDrive::add_points(sync::MeasureGroup& group, double begin_s, double end_s,
+                                std::size_t unit) const {
   const simulate::LidarPattern pattern;
-  const double packet_s = to_seconds(lidar_.packet_period());
+  const double packet_s = to_seconds(lidars_[unit].packet_period());
   const auto first = static_cast<std::uint64_t>(std::ceil(begin_s / packet_s - 1e-6));
   const auto last = static_cast<std::uint64_t>(std::ceil(end_s / packet_s - 1e-6));
   const std::uint64_t step = config_.keep_every_packet;
   const std::size_t at_once = step == 1 && last > first ? last - first : 1;  // on all cores
   for (std::uint64_t number = first; number < last; number += step == 1 ? at_once : step) {
-    for (const auto& packet : lidar_.packets(number, at_once)) {
+    for (const auto& packet : lidars_[unit].packets(number, at_once)) {
       for (std::size_t i = 0; i < packet.points.size(); ++i) {
         const simulate::WirePoint& point = packet.points[i];
         if (point.x_mm == 0 && point.y_mm == 0 && point.z_mm == 0) continue;
@@ -89,7 +97,7 @@ void SimulatedDrive::add_points(sync::MeasureGroup& group, double begin_s, doubl
                              static_cast<float>(point.z_mm)) *
                  1e-3F,
              static_cast<float>(point.reflectivity) / 150.0F,
-             static_cast<std::int32_t>((group.end - fired).count()), 0});
+             static_cast<std::int32_t>((group.end - fired).count()), 0, static_cast<std::uint8_t>(unit)});
       }
     }
   }

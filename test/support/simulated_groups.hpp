@@ -9,6 +9,7 @@
 #include "tools/simulate/trajectory.hpp"
 #include "tools/simulate/world.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -22,6 +23,7 @@ struct SimulatedDriveConfig {
   bool noisy = true;
   std::uint64_t keep_every_packet = 1;  ///< thins the points: 1 keeps all 200 000 points/s
   std::uint64_t seed = 1;
+  std::vector<sensor::LidarMount> more_lidars;  ///< Mid-360s as well
 };
 
 /// A Mid-360 with its IMU on a body that drives through a world: groups as robot/sync cuts them, with perfect
@@ -37,13 +39,13 @@ class SimulatedDrive {
   [[nodiscard]] simulate::BodyState truth(HostTime stamp) const;
 
  private:
-  void add_points(sync::MeasureGroup& group, double begin_s, double end_s) const;
+  void add_points(sync::MeasureGroup& group, double begin_s, double end_s, std::size_t unit) const;
   void add_imu(sync::MeasureGroup& group, double begin_s, double end_s);
 
   SimulatedDriveConfig config_;
   sensor::Rig rig_;
   simulate::Trajectory trajectory_;
-  simulate::LidarSensor lidar_;
+  std::vector<simulate::LidarSensor> lidars_;
   simulate::ImuSensor imu_;
   std::vector<simulate::ImuReading> readings_;
   int group_ = 0;
