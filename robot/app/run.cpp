@@ -64,7 +64,7 @@ Status run_sensors(const Options& o, const robot_config::RobotConfig& config, co
     replay::RecorderConfig recorder;
     recorder.min_free_bytes = config.record.min_free_bytes;
     recorder.sync_period = from_seconds(config.record.sync_period_s);
-    recorder.lidar_protocol = livox::LidarDriver::protocol_of(config.livox.model);
+    recorder.lidar_protocols = {livox::LidarDriver::protocol_of(config.livox.model)};
     EDGESPLAT_TRY(recording,
                   Recording::start(o.record, config::to_toml(rig), config::to_toml(config), recorder));
   }

@@ -14,12 +14,14 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
 namespace edgesplat::desk {
 namespace {
 
 struct SimulateVerbOptions {
   simulate::SimulateOptions simulation;
+  std::vector<simulate::LidarKind> lidars = {simulate::LidarKind::kMid360};
   std::string camera = "320x256";
   double spin_deg_per_s = 0.0;
   std::string clean_poses;
@@ -91,6 +93,8 @@ void print_report(const simulate::SimulateReport& report, const SimulateVerbOpti
 
 Status run_simulate(SimulateVerbOptions options) {
   EDGESPLAT_TRY_STATUS(parse_camera(options.camera, options.simulation));
+  options.simulation.lidar = options.lidars.front();
+  options.simulation.more_lidars.assign(options.lidars.begin() + 1, options.lidars.end());
   options.simulation.spin_radps = options.spin_deg_per_s * std::numbers::pi / 180.0;
   if (options.clean_poses.empty() != options.clean_folder.empty()) {
     return fail(Errc::kInvalidConfig, "--clean-views and --clean-out go together");
@@ -131,7 +135,8 @@ void add_simulate_verb(CLI::App& app, VerbContext& context) {
   verb->add_option("--seed", simulation.world.seed, "Decides every texture, gait and noise")
       ->capture_default_str();
   verb->add_option("--out", simulation.out, "The recording to write, .mcap");
-  verb->add_option("--lidar", simulation.lidar, "mid360 or avia")
+  verb->add_option("--lidar", options->lidars, "mid360 or avia; several with commas between: mid360,avia")
+      ->delimiter(',')
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, LidarKind>{{"mid360", LidarKind::kMid360}, {"avia", LidarKind::kAvia}}));
   verb->add_option("--clock", simulation.clock, "Devices' clocks: ptp (disciplined) or free")

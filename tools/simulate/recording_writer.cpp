@@ -5,6 +5,7 @@
 #include "common/io/recording_topics.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace edgesplat::simulate {
 namespace {
@@ -16,43 +17,49 @@ SensorTime as_stamp(HostTime time) {
 
 }  // namespace
 
-Result<RecordingWriter> RecordingWriter::create(const std::filesystem::path& path) {
+Result<RecordingWriter> RecordingWriter::create(const std::filesystem::path& path, std::size_t lidars) {
   EDGESPLAT_TRY(io::McapWriter file, io::McapWriter::create(path));
   RecordingWriter writer(std::move(file));
-  EDGESPLAT_TRY_STATUS(writer.add_channels());
+  EDGESPLAT_TRY_STATUS(writer.add_channels(lidars));
   return writer;
 }
 
-Status RecordingWriter::add_channels() {
+Status RecordingWriter::add_channels(std::size_t lidars) {
   struct Row {
-    Topic topic;
-    std::string_view name;
+    std::string name;
     const io::RosSchema& schema;
   };
-  const std::array<Row, kTopics> rows = {{
-      {kPoints, io::kLidarPointsTopic, io::kRawDatagramSchema},
-      {kImu, io::kLidarImuTopic, io::kRawDatagramSchema},
-      {kMeta, io::kCameraMetaTopic, io::kFrameMetaSchema},
-      {kImage, io::kCameraImageTopic, io::kCompressedImageSchema},
-      {kPose, io::kTruthBodyPoseTopic, io::kPoseStampedSchema},
-      {kClean, io::kTruthCameraCleanTopic, io::kCompressedImageSchema},
-      {kMask, io::kTruthCameraMaskTopic, io::kCompressedImageSchema},
-      {kDepth, io::kTruthCameraDepthTopic, io::kCompressedImageSchema},
-  }};
+  std::vector<Row> rows = {
+      // in the order of Topic
+      {std::string(io::kLidarPointsTopic), io::kRawDatagramSchema},
+      {std::string(io::kLidarImuTopic), io::kRawDatagramSchema},
+      {std::string(io::kCameraMetaTopic), io::kFrameMetaSchema},
+      {std::string(io::kCameraImageTopic), io::kCompressedImageSchema},
+      {std::string(io::kTruthBodyPoseTopic), io::kPoseStampedSchema},
+      {std::string(io::kTruthCameraCleanTopic), io::kCompressedImageSchema},
+      {std::string(io::kTruthCameraMaskTopic), io::kCompressedImageSchema},
+      {std::string(io::kTruthCameraDepthTopic), io::kCompressedImageSchema},
+  };
+  for (std::size_t unit = 1; unit < lidars; ++unit)
+    rows.push_back({io::topic_of_lidar(io::kLidarPointsTopic, unit), io::kRawDatagramSchema});
   for (const Row& row : rows) {
     EDGESPLAT_TRY(const auto schema,
                   file_.add_schema(row.schema.name, io::kRosSchemaEncoding, row.schema.text));
-    EDGESPLAT_TRY(channels_[row.topic], file_.add_channel(row.name, schema));
+    EDGESPLAT_TRY(channels_.emplace_back(), file_.add_channel(row.name, schema));
   }
+  sequences_.resize(rows.size());
   return {};
 }
 
-void RecordingWriter::add(Topic topic, SensorTime stamp, HostTime arrival, std::vector<std::byte> payload) {
+void RecordingWriter::add(std::size_t topic, SensorTime stamp, HostTime arrival,
+                          std::vector<std::byte> payload) {
   pending_.push_back({topic, stamp, arrival, std::move(payload)});
 }
 
-void RecordingWriter::add_points(SensorTime stamp, HostTime arrival, std::vector<std::byte> datagram) {
-  add(kPoints, stamp, arrival, io::encode(io::RawDatagram{datagram}));
+void RecordingWriter::add_points(std::size_t unit, SensorTime stamp, HostTime arrival,
+                                 std::vector<std::byte> datagram) {
+  add(unit == 0 ? std::size_t{kPoints} : kMorePoints + unit - 1, stamp, arrival,
+      io::encode(io::RawDatagram{datagram}));
 }
 
 void RecordingWriter::add_imu(SensorTime stamp, HostTime arrival, std::vector<std::byte> datagram) {

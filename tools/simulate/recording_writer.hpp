@@ -8,7 +8,6 @@
 #include "common/io/ros_messages.hpp"
 #include "common/time/time.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -33,9 +32,10 @@ struct RecordedFrame {
 /// Single-owner.
 class RecordingWriter {
  public:
-  static Result<RecordingWriter> create(const std::filesystem::path& path);
+  static Result<RecordingWriter> create(const std::filesystem::path& path, std::size_t lidars = 1);
 
-  void add_points(SensorTime stamp, HostTime arrival, std::vector<std::byte> datagram);
+  /// `unit`: which LiDAR's, each has a topic.
+  void add_points(std::size_t unit, SensorTime stamp, HostTime arrival, std::vector<std::byte> datagram);
   void add_imu(SensorTime stamp, HostTime arrival, std::vector<std::byte> datagram);
   void add_pose(HostTime time, const geometry::RigidTransform& world_from_body);
   void add_frame(const RecordedFrame& frame);
@@ -47,22 +47,22 @@ class RecordingWriter {
   [[nodiscard]] const io::McapWriter& file() const { return file_; }
 
  private:
-  enum Topic : std::size_t { kPoints, kImu, kMeta, kImage, kPose, kClean, kMask, kDepth, kTopics };
+  enum Topic : std::size_t { kPoints, kImu, kMeta, kImage, kPose, kClean, kMask, kDepth, kMorePoints };
   struct Pending {
-    Topic topic;
+    std::size_t topic;
     SensorTime stamp;
     HostTime arrival;
     std::vector<std::byte> payload;
   };
   explicit RecordingWriter(io::McapWriter file) : file_(std::move(file)) {}
-  [[nodiscard]] Status add_channels();
-  void add(Topic topic, SensorTime stamp, HostTime arrival, std::vector<std::byte> payload);
+  [[nodiscard]] Status add_channels(std::size_t lidars);
+  void add(std::size_t topic, SensorTime stamp, HostTime arrival, std::vector<std::byte> payload);
   void add_picture(Topic topic, const RecordedFrame& frame, std::string_view format,
                    const std::vector<std::byte>& encoded);
 
   io::McapWriter file_;
-  std::array<io::McapChannelId, kTopics> channels_{};
-  std::array<std::uint32_t, kTopics> sequences_{};
+  std::vector<io::McapChannelId> channels_;  ///< by topic; kMorePoints: of unit 1, then 2, ...
+  std::vector<std::uint32_t> sequences_;
   std::vector<Pending> pending_;
 };
 

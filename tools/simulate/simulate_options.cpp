@@ -4,7 +4,11 @@
 
 #include "common/config/config_file.hpp"
 
+#include <Eigen/Geometry>
+
 #include <numbers>
+#include <sstream>
+#include <utility>
 
 namespace edgesplat::simulate {
 namespace {
@@ -30,6 +34,35 @@ sensor::CameraMount camera_mount(const SimulateOptions& options) {
   return camera;
 }
 
+constexpr std::string_view name_of(LidarKind kind) {
+  return kind == LidarKind::kMid360 ? "mid360" : "avia";
+}
+
+/// Where a further LiDAR sits: apart from the first, and turned, so that a wrong place would show.
+geometry::RigidTransform further_place(std::size_t unit) {
+  geometry::RigidTransform body_from_lidar;
+  body_from_lidar.translation_m = {-0.30 * static_cast<double>(unit), unit % 2 == 1 ? 0.12 : -0.12, -0.06};
+  body_from_lidar.rotation = Eigen::AngleAxisd(std::numbers::pi + 0.15, Eigen::Vector3d::UnitZ()) *
+                             Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
+  return body_from_lidar;
+}
+
+/// "mid360 avia"
+void describe_more_lidars(config::ConfigReader& reader, std::vector<LidarKind>& kinds) {
+  std::string names;
+  for (const LidarKind kind : kinds) names += (names.empty() ? "" : " ") + std::string(name_of(kind));
+  const std::string before = names;
+  reader.field("more_lidars", names, "scan patterns of the LiDARs besides the first, with blanks between");
+  if (names == before) return;
+  kinds.clear();
+  std::istringstream words(names);
+  for (std::string word; words >> word;) {
+    if (word != "mid360" && word != "avia")
+      reader.problem("more_lidars", "\"" + word + "\" is none of mid360, avia");
+    kinds.push_back(word == "avia" ? LidarKind::kAvia : LidarKind::kMid360);
+  }
+}
+
 // The part of the options that decides what is measured, as TOML.
 void describe_simulation(config::ConfigReader& reader, SimulateOptions& options) {
   using config::Range;
@@ -44,6 +77,7 @@ void describe_simulation(config::ConfigReader& reader, SimulateOptions& options)
     reader.field("seconds", options.seconds, Range{0.0, 36000.0}, "length");
     reader.choice("lidar", options.lidar, {{"mid360", LidarKind::kMid360}, {"avia", LidarKind::kAvia}},
                   "scan pattern");
+    describe_more_lidars(reader, options.more_lidars);
     reader.choice("clock", options.clock, {{"free", ClockMode::kFree}, {"ptp", ClockMode::kPtp}},
                   "of the devices");
     reader.field("body_motion", options.body_motion, Range{0.0, 10.0}, "scale of sway and bumps");
@@ -75,6 +109,9 @@ Status validate(const SimulateOptions& options) {
   if (!(options.spin_radps >= 0.0 && options.spin_radps <= 6.0)) {
     return refuse("--spin must be in [0, 343] deg/s");
   }
+  if (options.more_lidars.size() >= sensor::kMostLidars) {
+    return refuse("--lidar: a robot has at most " + std::to_string(sensor::kMostLidars));
+  }
   if (options.clean_views && no_camera) return refuse("--clean-views needs a camera");
   return {};
 }
@@ -82,8 +119,14 @@ Status validate(const SimulateOptions& options) {
 sensor::Rig simulated_rig(const SimulateOptions& options) {
   sensor::Rig rig;
   rig.name = "simulated";
-  rig.lidar.name = options.lidar == LidarKind::kMid360 ? "mid360" : "avia";
+  rig.lidar.name = name_of(options.lidar);
   rig.body_from_lidar.translation_m = {-0.011, -0.02329, 0.04412};  // Mid-360: where its own IMU sits
+  for (const LidarKind kind : options.more_lidars) {
+    sensor::LidarMount mount;
+    mount.model.name = name_of(kind);
+    mount.body_from_lidar = further_place(rig.lidar_count());
+    rig.more_lidars.push_back(std::move(mount));
+  }
   rig.imu = sensor::ImuModel{};
   if (options.camera_width_px > 0) rig.camera = camera_mount(options);
   return rig;

@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace edgesplat::simulate {
 
@@ -32,6 +33,7 @@ struct SimulateOptions {
   WorldConfig world;      ///< its seed decides every noise too
   double seconds = 20.0;  ///< (0, 36000]
   LidarKind lidar = LidarKind::kMid360;
+  std::vector<LidarKind> more_lidars;  ///< besides the first, at most 7; see simulated_rig()
   ClockMode clock = ClockMode::kPtp;
   int camera_width_px = 320;  ///< 0 = no camera, else 32..4096
   int camera_height_px = 256;
@@ -45,7 +47,8 @@ struct SimulateOptions {
 
 /// kInvalidConfig with the option and its range.
 [[nodiscard]] Status validate(const SimulateOptions& options);
-/// The robot that is simulated: a LiDAR with its IMU, the camera in front above it, looking slightly down.
+/// The robot that is simulated: a LiDAR with its IMU, the camera in front above it, looking slightly down;
+/// more LiDARs sit behind each other, to the left and the right in turn, and look back, tilted.
 [[nodiscard]] sensor::Rig simulated_rig(const SimulateOptions& options);
 /// How the simulated camera exposes; it changes its exposure every few seconds, as an automatic one does.
 [[nodiscard]] CameraSensorConfig simulated_exposure(const SimulateOptions& options);

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace edgesplat::simulate {
 namespace {
@@ -26,13 +27,15 @@ double driven_between(const Trajectory& trajectory, double begin_s, double end_s
 Status run_steps(const World& world, const Trajectory& trajectory, const SimulateOptions& options,
                  RecordingWriter& recording, const std::function<bool(double)>& after_step,
                  SimulateReport& report) {
-  VirtualLidar lidar(world, trajectory, options);
+  std::vector<VirtualLidar> lidars;
+  for (std::size_t unit = 0; unit <= options.more_lidars.size(); ++unit)
+    lidars.emplace_back(world, trajectory, options, unit);
   std::optional<VirtualCamera> camera;
   if (options.camera_width_px > 0) camera.emplace(world, trajectory, options);
   double begin_s = 0.0;
   for (int step = 1; begin_s < options.seconds && !report.stopped; ++step) {
     const double end_s = std::min(step * kFramePeriod_s, options.seconds);
-    lidar.measure_until(end_s, recording);
+    for (VirtualLidar& lidar : lidars) lidar.measure_until(end_s, recording);
     if (camera && end_s - begin_s > 0.5 * kFramePeriod_s) {
       EDGESPLAT_TRY(const RecordedFrame frame, camera->expose());
       recording.add_frame(frame);
@@ -44,8 +47,8 @@ Status run_steps(const World& world, const Trajectory& trajectory, const Simulat
     report.stopped = !after_step(end_s);
     begin_s = end_s;
   }
-  report.point_packets = lidar.point_packets();
-  report.imu_packets = lidar.imu_packets();
+  for (const VirtualLidar& lidar : lidars) report.point_packets += lidar.point_packets();
+  report.imu_packets = lidars.front().imu_packets();
   return {};
 }
 
@@ -65,7 +68,8 @@ Result<SimulateReport> simulate(const SimulateOptions& options, const SimulatePr
   drive.spin_radps = options.spin_radps;
   drive.seed = options.world.seed;
   EDGESPLAT_TRY(const Trajectory trajectory, Trajectory::create(world->path(), drive));
-  EDGESPLAT_TRY(RecordingWriter recording, RecordingWriter::create(options.out));
+  EDGESPLAT_TRY(RecordingWriter recording,
+                RecordingWriter::create(options.out, 1 + options.more_lidars.size()));
   EDGESPLAT_TRY_STATUS(recording.attach(io::kRigAttachment, sensor::print_rig(simulated_rig(options))));
   EDGESPLAT_TRY_STATUS(recording.attach(io::kWorldAttachment, world_toml(options)));
   const auto after_step = [&](double simulated_s) {

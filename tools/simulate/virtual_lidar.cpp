@@ -10,11 +10,20 @@ namespace {
 constexpr double kLatency_s = 150e-6;       // last point to the host's network card
 constexpr double kArrivalJitter_s = 60e-6;  // mean
 
-LidarSensorConfig lidar_config(const SimulateOptions& options) {
+LidarKind kind_of(const SimulateOptions& options, std::size_t unit) {
+  return unit == 0 ? options.lidar : options.more_lidars.at(unit - 1);
+}
+
+/// Noise of its own for each unit; the first one's is that of a robot with one.
+std::uint64_t seed_of(const SimulateOptions& options, std::size_t unit) {
+  return unit == 0 ? options.world.seed : mix_bits(options.world.seed + unit);
+}
+
+LidarSensorConfig lidar_config(const SimulateOptions& options, std::size_t unit) {
   LidarSensorConfig config;
-  config.pattern.kind = options.lidar;
-  config.body_from_lidar = simulated_rig(options).body_from_lidar;
-  config.seed = options.world.seed;
+  config.pattern.kind = kind_of(options, unit);
+  config.body_from_lidar = simulated_rig(options).mount_of(unit).body_from_lidar;
+  config.seed = seed_of(options, unit);
   return config;
 }
 
@@ -30,19 +39,21 @@ HostTime true_time(std::int64_t simulation_ns) {
 
 }  // namespace
 
-VirtualLidar::VirtualLidar(const World& world, const Trajectory& trajectory, const SimulateOptions& options)
+VirtualLidar::VirtualLidar(const World& world, const Trajectory& trajectory, const SimulateOptions& options,
+                           std::size_t unit)
     : trajectory_(trajectory),
+      unit_(unit),
       imu_rate_hz_(imu_config(options).model.rate_hz),
-      pattern_{options.lidar},
-      lidar_(world, trajectory, lidar_config(options)),
+      pattern_{kind_of(options, unit)},
+      lidar_(world, trajectory, lidar_config(options, unit)),
       imu_(trajectory, imu_config(options)),
-      clock_({.mode = options.clock}, NoisePurpose::kLidarClock, options.world.seed),
-      point_arrival_(kLatency_s, kArrivalJitter_s, options.world.seed, 0),
-      imu_arrival_(kLatency_s, kArrivalJitter_s, options.world.seed, 1) {}
+      clock_({.mode = options.clock}, NoisePurpose::kLidarClock, seed_of(options, unit)),
+      point_arrival_(kLatency_s, kArrivalJitter_s, seed_of(options, unit), 0),
+      imu_arrival_(kLatency_s, kArrivalJitter_s, seed_of(options, unit), 1) {}
 
 void VirtualLidar::measure_until(double end_s, RecordingWriter& recording) {
   measure_points(end_s, recording);
-  measure_inertia(end_s, recording);
+  if (unit_ == 0) measure_inertia(end_s, recording);
 }
 
 void VirtualLidar::measure_points(double end_s, RecordingWriter& recording) {
@@ -54,7 +65,7 @@ void VirtualLidar::measure_points(double end_s, RecordingWriter& recording) {
     const HostTime first = true_time(static_cast<std::int64_t>(shots.first_shot) * shot_ns);
     const PacketStamp stamp{static_cast<std::uint16_t>(next_packet_), clock_.stamp(first), span,
                             clock_.source()};
-    recording.add_points(stamp.first, point_arrival_.arrival(first + span),
+    recording.add_points(unit_, stamp.first, point_arrival_.arrival(first + span),
                          encode_point_packet(stamp, shots.points));
     ++next_packet_;
   }

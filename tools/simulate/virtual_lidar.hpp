@@ -9,6 +9,7 @@
 #include "tools/simulate/simulate_options.hpp"
 #include "tools/simulate/trajectory.hpp"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace edgesplat::simulate {
@@ -16,10 +17,12 @@ namespace edgesplat::simulate {
 /// A Livox unit: LiDAR and IMU behind one clock, measuring into datagrams. Casts on all cores. Single-owner.
 class VirtualLidar {
  public:
-  VirtualLidar(const World& world, const Trajectory& trajectory, const SimulateOptions& options);
+  /// `unit`: which of the robot's LiDARs; each has a clock of its own.
+  VirtualLidar(const World& world, const Trajectory& trajectory, const SimulateOptions& options,
+               std::size_t unit = 0);
 
   /// Everything measured before `end_s`, simulation time, since the last call. The true pose is recorded with
-  /// each IMU sample.
+  /// each IMU sample. The IMUs of LiDARs other than the first are off.
   void measure_until(double end_s, RecordingWriter& recording);
   [[nodiscard]] std::uint64_t point_packets() const { return next_packet_; }
   [[nodiscard]] std::uint64_t imu_packets() const { return next_sample_; }
@@ -28,6 +31,7 @@ class VirtualLidar {
   void measure_points(double end_s, RecordingWriter& recording);
   void measure_inertia(double end_s, RecordingWriter& recording);
   const Trajectory& trajectory_;
+  std::size_t unit_;
   double imu_rate_hz_;
   LidarPattern pattern_;
   LidarSensor lidar_;

@@ -69,6 +69,7 @@ std::optional<sensor::Measurement> LivoxSource::accept_imu(const PacketTiming& t
 sensor::Measurement LivoxSource::hand_on(sensor::LidarPacket points) {
   counters_.points_out += points.points.size();
   stamp_source_ = points.stamp_source;
+  points.unit = unit_;
   return points;
 }
 

@@ -33,8 +33,9 @@ struct LivoxCounters {
 /// allocation is the vector of points.
 class LivoxSource {
  public:
-  explicit LivoxSource(Protocol protocol = Protocol::kSdk2, PointFilter filter = {})
-      : protocol_(protocol), filter_(filter) {}
+  /// `unit`: which of the rig's LiDARs it is, written on every packet.
+  explicit LivoxSource(Protocol protocol = Protocol::kSdk2, PointFilter filter = {}, std::uint8_t unit = 0)
+      : protocol_(protocol), filter_(filter), unit_(unit) {}
 
   /// One datagram of the point channel; a LidarPacket unless it was refused.
   [[nodiscard]] std::optional<sensor::Measurement> on_points(std::span<const std::byte> datagram,
@@ -61,6 +62,7 @@ class LivoxSource {
 
   Protocol protocol_;
   PointFilter filter_;
+  std::uint8_t unit_;
   StreamMonitor points_;
   StreamMonitor imu_;
   PulseTime pulses_;

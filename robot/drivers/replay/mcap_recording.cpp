@@ -8,22 +8,27 @@
 #include "common/sensor/rig_config.hpp"
 #include "robot/drivers/livox/livox_source.hpp"
 
-#include <array>
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace edgesplat::replay {
 namespace {
 
-constexpr std::array kTopics{io::kLidarPointsTopic, io::kLidarImuTopic, io::kCameraMetaTopic,
-                             io::kCameraImageTopic};
 constexpr std::int64_t kLatest_ns = std::int64_t{1} << 62U;  // sums and differences of times stay in range
+
+/// One of the rig's LiDARs in the recording.
+struct RecordedLidar {
+  std::string points_topic;
+  livox::LivoxSource source;
+};
 
 class McapRecording final : public ReplaySource::Reader {
  public:
-  McapRecording(io::McapReader reader, sensor::Rig rig, livox::Protocol protocol)
-      : reader_(std::move(reader)), rig_(std::move(rig)), livox_(protocol) {}
+  McapRecording(io::McapReader reader, sensor::Rig rig, std::vector<RecordedLidar> lidars)
+      : reader_(std::move(reader)), rig_(std::move(rig)), lidars_(std::move(lidars)) {}
 
   [[nodiscard]] const sensor::Rig& rig() const override { return rig_; }
   [[nodiscard]] nanoseconds duration() const override {
@@ -42,7 +47,7 @@ class McapRecording final : public ReplaySource::Reader {
 
   io::McapReader reader_;
   sensor::Rig rig_;
-  livox::LivoxSource livox_;
+  std::vector<RecordedLidar> lidars_;  ///< by unit; the first one's IMU is the body's
   std::optional<io::FrameMeta> meta_;  ///< of the picture that comes next
   HostTime picture_arrival_{};         ///< of that picture; its own message tells when it was handed on
   std::uint64_t measurements_ = 0;
@@ -78,8 +83,11 @@ std::optional<sensor::Measurement> McapRecording::convert_datagram(const io::Mca
     ++bad_messages_;
     return std::nullopt;
   }
-  return message.channel->topic == io::kLidarImuTopic ? livox_.on_imu(raw->datagram, message.log_time)
-                                                      : livox_.on_points(raw->datagram, message.log_time);
+  const std::string& topic = message.channel->topic;
+  if (topic == io::kLidarImuTopic) return lidars_.front().source.on_imu(raw->datagram, message.log_time);
+  const auto lidar = std::ranges::find(lidars_, topic, &RecordedLidar::points_topic);
+  if (lidar == lidars_.end()) return std::nullopt;  // not selected
+  return lidar->source.on_points(raw->datagram, message.log_time);
 }
 
 void McapRecording::keep_meta(const io::McapMessage& message) {
@@ -126,15 +134,18 @@ std::optional<sensor::Measurement> McapRecording::refuse_frame(std::string why) 
 
 ReplayReport McapRecording::report() const {
   const io::McapReadReport& file = reader_.report();
-  const livox::LivoxCounters lidar = livox_.counters();
   ReplayReport report;
   report.measurements = measurements_;
   report.bytes_skipped = file.bytes_skipped;
-  report.packets_refused = bad_messages_ + lidar.bad_length + lidar.bad_version + lidar.bad_type +
-                           lidar.bad_crc + lidar.bad_value + lidar.points.duplicate + lidar.points.bad_stamp +
-                           lidar.imu.duplicate + lidar.imu.bad_stamp;
+  report.packets_refused = bad_messages_;
+  for (const RecordedLidar& recorded : lidars_) {
+    const livox::LivoxCounters lidar = recorded.source.counters();
+    report.packets_refused += lidar.bad_length + lidar.bad_version + lidar.bad_type + lidar.bad_crc +
+                              lidar.bad_value + lidar.points.duplicate + lidar.points.bad_stamp +
+                              lidar.imu.duplicate + lidar.imu.bad_stamp;
+    report.points_dropped += lidar.dropped_points.no_return + lidar.dropped_points.low_confidence;
+  }
   report.frames_refused = frames_refused_;
-  report.points_dropped = lidar.dropped_points.no_return + lidar.dropped_points.low_confidence;
   report.why = file.why;
   const auto add = [&report](const std::string& why) {
     report.why += (report.why.empty() ? "" : "; ") + why;
@@ -145,8 +156,8 @@ ReplayReport McapRecording::report() const {
   return report;
 }
 
-livox::Protocol protocol_of(const io::McapReader& reader) {
-  const io::McapChannel* channel = reader.find_channel(io::kLidarPointsTopic);
+livox::Protocol protocol_of(const io::McapReader& reader, const std::string& points_topic) {
+  const io::McapChannel* channel = reader.find_channel(points_topic);
   if (channel == nullptr) return livox::Protocol::kSdk2;
   const auto named = channel->metadata.find(std::string(io::kProtocolKey));
   const bool is_sdk1 = named != channel->metadata.end() && named->second == io::kLivoxSdk1;
@@ -184,11 +195,18 @@ Result<std::unique_ptr<ReplaySource::Reader>> open_mcap_recording(io::McapReader
                               attachment->content.size());
   EDGESPLAT_TRY(sensor::Rig rig, sensor::parse_rig(text, path.string() + ":rig.toml"));
   io::McapSelection selection;
-  for (const std::string_view topic : kTopics) selection.topics.emplace_back(topic);
+  for (const std::string_view topic : {io::kLidarImuTopic, io::kCameraMetaTopic, io::kCameraImageTopic})
+    selection.topics.emplace_back(topic);
+  std::vector<RecordedLidar> lidars;
+  for (std::size_t unit = 0; unit < rig.lidar_count(); ++unit) {
+    std::string topic = io::topic_of_lidar(io::kLidarPointsTopic, unit);
+    selection.topics.push_back(topic);
+    const livox::LivoxSource source(protocol_of(reader, topic), {}, static_cast<std::uint8_t>(unit));
+    lidars.push_back({std::move(topic), source});
+  }
   reader.select(std::move(selection));
-  const livox::Protocol protocol = protocol_of(reader);
   return std::unique_ptr<ReplaySource::Reader>(
-      std::make_unique<McapRecording>(std::move(reader), std::move(rig), protocol));
+      std::make_unique<McapRecording>(std::move(reader), std::move(rig), std::move(lidars)));
 }
 
 }  // namespace edgesplat::replay

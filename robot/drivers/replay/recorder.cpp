@@ -3,6 +3,7 @@
 #include "robot/drivers/replay/recorder.hpp"
 
 #include "common/base/bytes.hpp"
+#include "common/base/check.hpp"
 #include "common/io/recording_topics.hpp"
 #include "common/io/ros_messages.hpp"
 #include "robot/drivers/livox/sdk1_packet.hpp"
@@ -59,33 +60,32 @@ Recorder::Recorder(io::McapWriter writer, std::filesystem::path path, const Reco
       queue_({config.queue_items, config.queue_bytes}, thread::Overflow::kDropNewest) {}
 
 Status Recorder::add_channels() {
-  struct Entry {
-    Topic topic;
-    std::string_view name;
-    const io::RosSchema* schema;
-  };
-  const std::array<Entry, kTopicCount> entries{
-      Entry{kPoints, io::kLidarPointsTopic, &io::kRawDatagramSchema},
-      Entry{kImu, io::kLidarImuTopic, &io::kRawDatagramSchema},
-      Entry{kControl, io::kLidarControlTopic, &io::kRawDatagramSchema},
-      Entry{kMeta, io::kCameraMetaTopic, &io::kFrameMetaSchema},
-      Entry{kImage, io::kCameraImageTopic, &io::kCompressedImageSchema}};
-  const std::string_view protocol =
-      config_.lidar_protocol == livox::Protocol::kSdk1 ? io::kLivoxSdk1 : io::kLivoxSdk2;
-  for (const Entry& entry : entries) {
-    EDGESPLAT_TRY(const io::McapSchemaId schema,
-                  writer_.add_schema(entry.schema->name, io::kRosSchemaEncoding, entry.schema->text));
-    std::map<std::string, std::string> metadata;
-    if (entry.schema == &io::kRawDatagramSchema) metadata.emplace(io::kProtocolKey, protocol);
-    EDGESPLAT_TRY(channels_.at(entry.topic),
-                  writer_.add_channel(entry.name, schema, "cdr", std::move(metadata)));
+  EDGESPLAT_TRY_STATUS(add_channel(std::string(io::kCameraMetaTopic), io::kFrameMetaSchema, {}));
+  EDGESPLAT_TRY_STATUS(add_channel(std::string(io::kCameraImageTopic), io::kCompressedImageSchema, {}));
+  for (std::size_t unit = 0; unit < config_.lidar_protocols.size(); ++unit) {
+    const bool is_sdk1 = config_.lidar_protocols[unit] == livox::Protocol::kSdk1;
+    const std::string protocol(is_sdk1 ? io::kLivoxSdk1 : io::kLivoxSdk2);
+    for (const std::string_view topic : {io::kLidarPointsTopic, io::kLidarImuTopic, io::kLidarControlTopic})
+      EDGESPLAT_TRY_STATUS(add_channel(io::topic_of_lidar(topic, unit), io::kRawDatagramSchema,
+                                       {{std::string(io::kProtocolKey), protocol}}));
   }
   return {};
 }
 
-void Recorder::on_datagram(const livox::Datagram& datagram) {
+Status Recorder::add_channel(const std::string& name, const io::RosSchema& schema,
+                             std::map<std::string, std::string> metadata) {
+  EDGESPLAT_TRY(const io::McapSchemaId id,
+                writer_.add_schema(schema.name, io::kRosSchemaEncoding, schema.text));
+  EDGESPLAT_TRY(channels_.emplace_back(), writer_.add_channel(name, id, "cdr", std::move(metadata)));
+  sequences_.push_back(0);
+  return {};
+}
+
+void Recorder::on_datagram(const livox::Datagram& datagram, std::size_t unit) {
+  EDGESPLAT_CHECK(unit < config_.lidar_protocols.size(), "every LiDAR has topics");
   (void)queue_.push(
-      QueuedDatagram{datagram.channel, datagram.arrival, {datagram.bytes.begin(), datagram.bytes.end()}},
+      QueuedDatagram{
+          unit, datagram.channel, datagram.arrival, {datagram.bytes.begin(), datagram.bytes.end()}},
       datagram.bytes.size());  // a full queue counts by itself
 }
 
@@ -152,8 +152,10 @@ Status Recorder::write(const Item& item) {
 Status Recorder::write(const QueuedDatagram& datagram) {
   const bool is_data =
       datagram.channel == livox::Channel::kPoints || datagram.channel == livox::Channel::kImu;
-  const Topic topic = !is_data ? kControl : (datagram.channel == livox::Channel::kImu ? kImu : kPoints);
-  const SensorTime stamp = is_data ? stamp_of(datagram.bytes, config_.lidar_protocol) : SensorTime{};
+  const std::size_t of_lidar = !is_data ? 2U : (datagram.channel == livox::Channel::kImu ? 1U : 0U);
+  const std::size_t topic = kFirstOfLidars + kOfLidar * datagram.unit + of_lidar;
+  const SensorTime stamp =
+      is_data ? stamp_of(datagram.bytes, config_.lidar_protocols[datagram.unit]) : SensorTime{};
   return write(topic, datagram.arrival, stamp, io::encode(io::RawDatagram{datagram.bytes}));
 }
 
@@ -168,7 +170,8 @@ Status Recorder::write(const QueuedFrame& queued) {
   return write(kImage, queued.handed_on, header.stamp, io::encode(image));
 }
 
-Status Recorder::write(Topic topic, HostTime arrival, SensorTime stamp, std::span<const std::byte> payload) {
+Status Recorder::write(std::size_t topic, HostTime arrival, SensorTime stamp,
+                       std::span<const std::byte> payload) {
   newest_ = arrival;
   has_unflushed_ = true;
   return writer_.write(channels_.at(topic), sequences_.at(topic)++, arrival, stamp, payload);

@@ -4,15 +4,16 @@
 
 #include "common/base/result.hpp"
 #include "common/io/mcap_writer.hpp"
+#include "common/io/ros_messages.hpp"
 #include "common/thread/bounded_queue.hpp"
 #include "robot/drivers/frame_socket/frame_assembler.hpp"
 #include "robot/drivers/livox/livox_transport.hpp"
 
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <span>
 #include <stop_token>
@@ -30,7 +31,8 @@ struct RecorderConfig {
       400'000'000};  ///< what a killed program loses at most: this and what waits to be written
   nanoseconds sync_period{1'000'000'000};  ///< what a power cut loses at most besides; 0 = left to the system
   std::uint64_t min_free_bytes = std::uint64_t{512} << 20U;  ///< less left on the disk ends the recording
-  livox::Protocol lidar_protocol = livox::Protocol::kSdk2;   ///< of the datagrams; noted in the file
+  /// Of the datagrams of each LiDAR, by unit; noted in the file.
+  std::vector<livox::Protocol> lidar_protocols = {livox::Protocol::kSdk2};
 };
 
 struct RecorderCounters {
@@ -51,7 +53,8 @@ class Recorder {
                                                   std::string_view rig_toml, std::string_view robot_toml,
                                                   const RecorderConfig& config = {});
 
-  void on_datagram(const livox::Datagram& datagram);
+  /// `unit`: the LiDAR it came from; each has topics of its own. Precondition: there is a protocol for it.
+  void on_datagram(const livox::Datagram& datagram, std::size_t unit = 0);
   /// `handed_on`: when the robot's own chain gets the picture, which is after a camera's resends; a replay
   /// hands it on among the same points, so that it finds the same groups.
   void on_frame(const frame_socket::EncodedFrame& frame, HostTime arrival, HostTime handed_on);
@@ -66,6 +69,7 @@ class Recorder {
 
  private:
   struct QueuedDatagram {
+    std::size_t unit;
     livox::Channel channel;
     HostTime arrival;
     std::vector<std::byte> bytes;
@@ -76,16 +80,20 @@ class Recorder {
     frame_socket::EncodedFrame frame;
   };
   using Item = std::variant<QueuedDatagram, QueuedFrame>;
-  enum Topic : std::uint8_t { kPoints, kImu, kControl, kMeta, kImage, kTopicCount };
+  /// Of the camera; then kOfLidar for each LiDAR: points, IMU, control.
+  enum Topic : std::size_t { kMeta, kImage, kFirstOfLidars };
+  static constexpr std::size_t kOfLidar = 3;
 
   Recorder(io::McapWriter writer, std::filesystem::path path, const RecorderConfig& config);
   [[nodiscard]] Status add_channels();
+  [[nodiscard]] Status add_channel(const std::string& name, const io::RosSchema& schema,
+                                   std::map<std::string, std::string> metadata);
   /// Once a sync_period: to the disk, and whether there is room for more.
   [[nodiscard]] Status look_after_disk(HostTime newest);
   [[nodiscard]] Status write(const Item& item);
   [[nodiscard]] Status write(const QueuedDatagram& datagram);
   [[nodiscard]] Status write(const QueuedFrame& frame);
-  [[nodiscard]] Status write(Topic topic, HostTime arrival, SensorTime stamp,
+  [[nodiscard]] Status write(std::size_t topic, HostTime arrival, SensorTime stamp,
                              std::span<const std::byte> payload);
 
   RecorderConfig config_;
@@ -96,8 +104,8 @@ class Recorder {
   HostTime next_look_{};     ///< after the disk
   bool has_unflushed_ = false;
   thread::BoundedQueue<Item> queue_;
-  std::array<io::McapChannelId, kTopicCount> channels_{};
-  std::array<std::uint32_t, kTopicCount> sequences_{};
+  std::vector<io::McapChannelId> channels_;  ///< by topic
+  std::vector<std::uint32_t> sequences_;
   std::atomic<std::uint64_t> written_{0};
   std::atomic<std::uint64_t> failed_{0};
 };

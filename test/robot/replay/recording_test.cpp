@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "common/io/image_file.hpp"
+#include "common/io/mcap_reader.hpp"
 #include "common/sensor/rig_config.hpp"
 #include "robot/drivers/replay/recorder.hpp"
 #include "robot/drivers/replay/replay_source.hpp"
@@ -270,7 +271,7 @@ TEST(Recording, AnAviasPacketsAreReplayedAsSuch) {
   const test::TempDir folder;
   const auto path = folder.path() / "avia.mcap";
   RecorderConfig config;
-  config.lidar_protocol = livox::Protocol::kSdk1;
+  config.lidar_protocols = {livox::Protocol::kSdk1};
   auto recorder = Recorder::create(path, sensor::print_rig(small_rig()), "", config);
   ASSERT_TRUE(recorder.has_value());
   std::vector<std::byte> records;
@@ -290,6 +291,52 @@ TEST(Recording, AnAviasPacketsAreReplayedAsSuch) {
   const Counts counts = count_all(*source);
   EXPECT_EQ(counts.packets, 10U);
   EXPECT_EQ(counts.samples, 10U);
+  EXPECT_TRUE(source->report().complete) << source->report().why;
+}
+
+TEST(Recording, SeveralLidarsHaveTopicsOfTheirOwn) {
+  const test::TempDir folder;
+  const auto path = folder.path() / "two.mcap";
+  sensor::Rig rig = small_rig();
+  rig.more_lidars.emplace_back();
+  RecorderConfig config;
+  config.lidar_protocols = {livox::Protocol::kSdk2, livox::Protocol::kSdk1};
+  auto recorder = Recorder::create(path, sensor::print_rig(rig), "", config);
+  ASSERT_TRUE(recorder.has_value());
+  std::vector<std::byte> records;
+  for (int i = 0; i < 96; ++i) livox::append_point_mm(records, 1000 + i, 2000, 3000);
+  const auto imu = livox::imu_record(std::array<float, 6>{0.1F, 0, 0, 0, 0, 1});
+  for (int index = 0; index < 10; ++index) {
+    const auto stamp_ns = static_cast<std::uint64_t>(kStart_ns + index * 400'000);
+    (*recorder)->on_datagram({livox::Channel::kPoints, arrival_of(index), point_datagram(index)});
+    (*recorder)->on_datagram(
+        {livox::Channel::kPoints, arrival_of(index), livox::sdk1_packet(2, 1, stamp_ns, records)}, 1);
+    (*recorder)->on_datagram(
+        {livox::Channel::kImu, arrival_of(index), livox::sdk1_packet(6, 1, stamp_ns, imu)}, 1);
+    (*recorder)->on_datagram({livox::Channel::kControl, arrival_of(index), imu}, 1);
+  }
+  ASSERT_TRUE((*recorder)->finish().has_value());
+  auto reader = io::McapReader::open(path);
+  ASSERT_TRUE(reader.has_value());
+  for (const char* topic : {"/lidar/points_raw", "/lidar/imu_raw", "/lidar/control_raw"})
+    EXPECT_EQ(reader->find_channel(topic)->metadata.at("protocol"), "livox_sdk2");
+  for (const char* topic : {"/lidar1/points_raw", "/lidar1/imu_raw", "/lidar1/control_raw"})
+    EXPECT_EQ(reader->find_channel(topic)->metadata.at("protocol"), "livox_sdk1");
+  auto source = ReplaySource::open(path);
+  ASSERT_TRUE(source.has_value()) << source.error().context;
+  EXPECT_EQ(source->rig().lidar_count(), 2U);
+  int packets[2] = {0, 0};
+  int samples = 0;
+  while (true) {
+    const auto measurement = source->next();
+    ASSERT_TRUE(measurement.has_value());
+    if (!*measurement) break;
+    if (const auto* packet = std::get_if<sensor::LidarPacket>(&**measurement)) ++packets[packet->unit];
+    samples += std::holds_alternative<sensor::ImuSample>(**measurement) ? 1 : 0;
+  }
+  EXPECT_EQ(packets[0], 10);
+  EXPECT_EQ(packets[1], 10);
+  EXPECT_EQ(samples, 0) << "the body is the first one's IMU";
   EXPECT_TRUE(source->report().complete) << source->report().why;
 }
 

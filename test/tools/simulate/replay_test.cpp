@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 namespace edgesplat::simulate {
@@ -77,8 +78,9 @@ TEST(SimulatedRecording, RobotReadsAllOfIt) {
 
 // Points put into the world with the true pose at the time of their ray lie on the world's surfaces: that
 // holds only if stamps, packet spans, units, axes and the extrinsic all mean the same on both sides.
-TEST(SimulatedRecording, PointsLieOnTheWorldsSurfaces) {
-  const SimulateOptions options = three_seconds("surfaces");
+TEST(SimulatedRecording, PointsOfEachLidarLieOnTheWorldsSurfaces) {
+  SimulateOptions options = three_seconds("surfaces");
+  options.more_lidars = {LidarKind::kAvia};
   const Replayed replayed = simulate_and_replay(options);
   const auto world = World::create(options.world);
   ASSERT_TRUE(world.has_value());
@@ -88,12 +90,15 @@ TEST(SimulatedRecording, PointsLieOnTheWorldsSurfaces) {
   const auto trajectory = Trajectory::create((*world)->path(), config);
   ASSERT_TRUE(trajectory.has_value());
   int near = 0, all = 0;
-  for (std::size_t k = 5000; k < replayed.packets.size(); k += 25) {  // the robot moves by then
+  int packets[2] = {0, 0};
+  for (std::size_t k = 11'000; k < replayed.packets.size(); k += 25) {  // the robot moves by then
     const sensor::LidarPacket& packet = replayed.packets[k];
+    ++packets[packet.unit];
     for (const sensor::LidarPoint& point : packet.points) {
       const SensorTime fired = packet.stamp + nanoseconds(point.offset_ns);
       const double time_s = to_seconds(nanoseconds(to_ns(fired) - kEpoch_ns));
-      const auto world_from_lidar = trajectory->world_from_body(time_s) * replayed.rig.body_from_lidar;
+      const auto world_from_lidar =
+          trajectory->world_from_body(time_s) * replayed.rig.mount_of(packet.unit).body_from_lidar;
       const Eigen::Vector3d in_lidar = point.p_in_lidar_m.cast<double>();
       const Ray ray{world_from_lidar.translation_m, world_from_lidar.rotation * in_lidar.normalized(),
                     time_s};
@@ -104,6 +109,8 @@ TEST(SimulatedRecording, PointsLieOnTheWorldsSurfaces) {
   }
   ASSERT_GT(all, 4000);
   EXPECT_GT(static_cast<double>(near), 0.95 * all);
+  EXPECT_GT(packets[0], 20);
+  EXPECT_GT(packets[1], 20);
 }
 
 // LiDAR and camera see one world: returns fired around an exposure land in its depth picture at their depth.
@@ -154,6 +161,24 @@ TEST(SimulatedRecording, FreeClocksCountFromPowerOn) {
   ASSERT_FALSE(replayed.frames.empty());
   EXPECT_NE(to_ns(replayed.frames.front().stamp) / 1'000'000, to_ns(replayed.imu[10].stamp) / 1'000'000);
   EXPECT_EQ(replayed.rig.lidar.name, "avia");
+}
+
+TEST(SimulatedRecording, EachLidarHasAClockOfItsOwn) {
+  SimulateOptions options = three_seconds("clocks");
+  options.clock = ClockMode::kFree;
+  options.more_lidars = {LidarKind::kMid360, LidarKind::kAvia};
+  options.seconds = 0.5;
+  const Replayed replayed = simulate_and_replay(options);
+  ASSERT_EQ(replayed.rig.lidar_count(), 3U);
+  EXPECT_EQ(replayed.rig.mount_of(2).model.name, "avia");
+  SensorTime first[3]{};
+  for (const sensor::LidarPacket& packet : replayed.packets)
+    if (first[packet.unit] == SensorTime{}) first[packet.unit] = packet.stamp;
+  for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {1, 2}})
+    EXPECT_GT(std::abs((first[a] - first[b]).count()), 1'000'000);
+  const auto again = parse_world_toml(world_toml(options));
+  ASSERT_TRUE(again.has_value()) << again.error().context;
+  EXPECT_EQ(again->more_lidars, options.more_lidars);
 }
 
 }  // namespace
