@@ -10,21 +10,30 @@
 namespace edgesplat::app {
 namespace {
 
-void log_event(const livox::LidarEvent& event) {
+/// `who`: which of several, else empty.
+void log_event(const livox::LidarEvent& event, const std::string& who) {
   const livox::LidarEventName& name = livox::name_of(event.kind);
+  const std::string what = who + event.detail;
   if (name.is_problem) {
-    EDGESPLAT_LOG_WARN("livox", name.words, "what", event.detail);
+    EDGESPLAT_LOG_WARN("livox", name.words, "what", what);
   } else {
-    EDGESPLAT_LOG_INFO("livox", name.words, "what", event.detail);
+    EDGESPLAT_LOG_INFO("livox", name.words, "what", what);
   }
 }
 
-livox::LidarDriverConfig driver_config(const robot_config::LivoxSettings& settings, bool sees_pulses,
-                                       const sensor::Rig& rig) {
+livox::LidarDriverConfig driver_config(const std::vector<robot_config::LivoxSettings>& all, std::size_t unit,
+                                       bool sees_pulses, const sensor::Rig& rig) {
+  const robot_config::LivoxSettings& settings = all[unit];
   livox::LidarDriverConfig config;
+  config.unit = static_cast<std::uint8_t>(unit);
+  for (const robot_config::LivoxSettings& other : all) {
+    if (&other == &settings) continue;
+    for (const std::string& name : {other.serial, other.address})
+      if (!name.empty()) config.neighbours.push_back(name);
+  }
   config.choice = settings.model;
   config.serial_number = settings.serial;
-  config.has_imu = rig.imu.has_value();
+  config.has_imu = unit == 0 && rig.imu.has_value();
   config.return_mode = settings.returns;
   config.feeds_utc = settings.pulse_per_second;
   config.sees_pulses = sees_pulses;
@@ -49,19 +58,24 @@ void publish_stream(metrics::Registry& metrics, const std::string& name, const l
 
 }  // namespace
 
-Result<std::unique_ptr<LidarInput>> LidarInput::open(const robot_config::LivoxSettings& settings,
-                                                     bool sees_pulses, const sensor::Rig& rig,
-                                                     const Clock& clock, Sink sink,
+Result<std::unique_ptr<LidarInput>> LidarInput::open(const std::vector<robot_config::LivoxSettings>& all,
+                                                     std::size_t unit, bool sees_pulses,
+                                                     const sensor::Rig& rig, const Clock& clock, Sink sink,
                                                      replay::Recorder* recorder) {
-  livox::LidarDriver::Outputs outputs{std::move(sink), log_event, {}};
+  const bool is_alone = all.size() == 1;
+  const std::string who = is_alone ? "" : "LiDAR " + std::to_string(unit) + ": ";
+  livox::LidarDriver::Outputs outputs{
+      std::move(sink), [who](const auto& event) { log_event(event, who); }, {}};
   if (recorder != nullptr)
-    outputs.datagram = [recorder](const livox::Datagram& datagram) { recorder->on_datagram(datagram); };
-  EDGESPLAT_TRY(auto driver, livox::LidarDriver::open(driver_config(settings, sees_pulses, rig), clock,
+    outputs.datagram = [recorder, unit](const livox::Datagram& datagram) {
+      recorder->on_datagram(datagram, unit);
+    };
+  EDGESPLAT_TRY(auto driver, livox::LidarDriver::open(driver_config(all, unit, sees_pulses, rig), clock,
                                                       std::move(outputs)));
   const livox::LivoxTransport& transport = driver->transport();
-  EDGESPLAT_LOG_INFO("livox", "listening", "points_port", transport.points_port(), "imu_port",
+  EDGESPLAT_LOG_INFO("livox", "listening", "unit", unit, "points_port", transport.points_port(), "imu_port",
                      transport.imu_port(), "receive_buffer_bytes", transport.receive_buffer_bytes());
-  return std::unique_ptr<LidarInput>(new LidarInput(std::move(driver)));
+  return std::unique_ptr<LidarInput>(new LidarInput(std::move(driver), unit, is_alone));
 }
 
 void LidarInput::run(const std::stop_token& stop) {
@@ -75,31 +89,38 @@ void LidarInput::run(const std::stop_token& stop) {
 }
 
 void LidarInput::publish_counters(metrics::Registry& metrics) const {
+  publish_as("livox", metrics);
+  if (!is_alone_) publish_as("livox_" + std::to_string(unit_), metrics);
+}
+
+void LidarInput::publish_as(const std::string& prefix, metrics::Registry& metrics) const {
   const livox::LivoxCounters lidar = driver_->source_counters();
-  publish_stream(metrics, "livox.points", lidar.points);
-  publish_stream(metrics, "livox.imu", lidar.imu);
-  metrics.counter("livox.bad_length").add(lidar.bad_length);
-  metrics.counter("livox.bad_version").add(lidar.bad_version);
-  metrics.counter("livox.bad_type").add(lidar.bad_type);
-  metrics.counter("livox.bad_crc").add(lidar.bad_crc);
-  metrics.counter("livox.bad_value").add(lidar.bad_value);
-  metrics.counter("livox.no_return_points").add(lidar.dropped_points.no_return);
-  metrics.counter("livox.low_confidence_points").add(lidar.dropped_points.low_confidence);
-  metrics.counter("livox.points_out").add(lidar.points_out);
+  publish_stream(metrics, prefix + ".points", lidar.points);
+  publish_stream(metrics, prefix + ".imu", lidar.imu);
+  metrics.counter(prefix + ".bad_length").add(lidar.bad_length);
+  metrics.counter(prefix + ".bad_version").add(lidar.bad_version);
+  metrics.counter(prefix + ".bad_type").add(lidar.bad_type);
+  metrics.counter(prefix + ".bad_crc").add(lidar.bad_crc);
+  metrics.counter(prefix + ".bad_value").add(lidar.bad_value);
+  metrics.counter(prefix + ".no_return_points").add(lidar.dropped_points.no_return);
+  metrics.counter(prefix + ".low_confidence_points").add(lidar.dropped_points.low_confidence);
+  metrics.counter(prefix + ".points_out").add(lidar.points_out);
   const livox::TransportCounters& transport = driver_->transport().counters();
-  metrics.counter("livox.datagrams").add(transport.datagrams);
-  metrics.counter("livox.foreign_datagrams").add(transport.foreign + driver_->foreign_data());
-  metrics.counter("livox.kernel_dropped").add(transport.kernel_dropped);
-  metrics.counter("livox.send_failures").add(transport.send_failures);
+  metrics.counter(prefix + ".datagrams").add(transport.datagrams);
+  metrics.counter(prefix + ".foreign_datagrams").add(transport.foreign + driver_->foreign_data());
+  metrics.counter(prefix + ".kernel_dropped").add(transport.kernel_dropped);
+  metrics.counter(prefix + ".send_failures").add(transport.send_failures);
   const livox::LidarSessionCounters session = driver_->session_counters();
   for (std::size_t kind = 0; kind < livox::kLidarEventKinds; ++kind)
-    metrics.counter(livox::name_of(static_cast<livox::LidarEventKind>(kind)).counter)
+    metrics.counter(prefix + "." + livox::name_of(static_cast<livox::LidarEventKind>(kind)).counter)
         .add(session.events.at(kind));
-  metrics.counter("livox.requests").add(session.requests);
-  metrics.counter("livox.request_retries").add(session.retries);
-  metrics.counter("livox.bad_frames").add(session.bad_frames);
-  metrics.counter("livox.utc_told").add(session.utc_told);
-  metrics.gauge("livox.time_offset_ns").set(static_cast<double>(driver_->health().time_offset_ns));
+  metrics.counter(prefix + ".requests").add(session.requests);
+  metrics.counter(prefix + ".request_retries").add(session.retries);
+  metrics.counter(prefix + ".bad_frames").add(session.bad_frames);
+  metrics.counter(prefix + ".utc_told").add(session.utc_told);
+  // Not a sum: of the first.
+  if (unit_ == 0 || prefix != "livox")
+    metrics.gauge(prefix + ".time_offset_ns").set(static_cast<double>(driver_->health().time_offset_ns));
 }
 
 }  // namespace edgesplat::app

@@ -8,8 +8,11 @@
 #include "robot/app/pps_input.hpp"
 #include "robot/app/serial_input.hpp"
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace edgesplat::app {
 namespace {
@@ -23,7 +26,7 @@ LiveInput::Sink without_imu(const LiveInput::Sink& sink) {
 }  // namespace
 
 struct LiveInput::Devices {
-  std::unique_ptr<LidarInput> lidar;
+  std::vector<std::unique_ptr<LidarInput>> lidars;
   std::optional<PpsInput> pps;
   std::optional<SerialInput> serial;
   std::unique_ptr<sync::TriggeredStamps> pulses;  ///< null: no pulses are reported
@@ -38,10 +41,18 @@ LiveInput::~LiveInput() = default;
 Result<std::unique_ptr<LiveInput>> LiveInput::open(const robot_config::RobotConfig& config,
                                                    const sensor::Rig& rig, const Clock& clock, Sink sink,
                                                    replay::Recorder* recorder) {
-  // With an inertial sensor of its own the LiDAR's is not heard.
-  const Sink lidar_sink = config.serial.imu ? without_imu(sink) : sink;
-  EDGESPLAT_TRY(auto lidar,
-                LidarInput::open(config.livox, !config.pps.device.empty(), rig, clock, lidar_sink, recorder));
+  if (config.livox.size() != rig.lidar_count())
+    return fail(Errc::kInvalidConfig, "the rig has " + std::to_string(rig.lidar_count()) +
+                                          " LiDARs and the configuration " +
+                                          std::to_string(config.livox.size()) +
+                                          ": give robot.toml a [[livox]] for each [[lidar]] of rig.toml");
+  std::vector<std::unique_ptr<LidarInput>> lidars;
+  for (std::size_t unit = 0; unit < config.livox.size(); ++unit) {
+    // With an inertial sensor of its own the LiDAR's is not heard; of several LiDARs the first one's is.
+    const Sink lidar_sink = config.serial.imu || unit > 0 ? without_imu(sink) : sink;
+    EDGESPLAT_TRY(lidars.emplace_back(), LidarInput::open(config.livox, unit, !config.pps.device.empty(), rig,
+                                                          clock, lidar_sink, recorder));
+  }
   std::optional<PpsInput> pps;
   if (!config.pps.device.empty()) {
     EDGESPLAT_TRY(pps, PpsInput::open(config.pps, clock));
@@ -61,7 +72,7 @@ Result<std::unique_ptr<LiveInput>> LiveInput::open(const robot_config::RobotConf
     EDGESPLAT_TRY(camera, open_camera(config.camera, *rig.camera, clock, pulses.get()));
   }
   auto devices =
-      std::make_unique<Devices>(Devices{std::move(lidar), std::move(pps), std::move(serial),
+      std::make_unique<Devices>(Devices{std::move(lidars), std::move(pps), std::move(serial),
                                         std::move(pulses), std::move(camera), std::move(sink), recorder});
   return std::unique_ptr<LiveInput>(new LiveInput(std::move(devices)));
 }
@@ -84,23 +95,27 @@ void LiveInput::run(const std::stop_token& stop) {
   std::optional<thread::Worker> pps;
   if (devices_->pps) {
     pps.emplace(thread::Worker("pps", [this, &stop](const std::stop_token&) {
-      devices_->pps->receive(
-          stop, [this](HostTime edge, std::int64_t utc_ns) { devices_->lidar->on_pulse(edge, utc_ns); });
+      devices_->pps->receive(stop, [this](HostTime edge, std::int64_t utc_ns) {
+        for (const auto& lidar : devices_->lidars) lidar->on_pulse(edge, utc_ns);
+      });
       return false;
     }));
   }
-  thread::Worker lidar("lidar", [this, &stop](const std::stop_token&) {
-    devices_->lidar->run(stop);
-    return false;
-  });
-  lidar.join();
+  std::vector<thread::Worker> lidars;
+  for (const auto& lidar : devices_->lidars) {
+    lidars.emplace_back("lidar", [&lidar, &stop](const std::stop_token&) {
+      lidar->run(stop);
+      return false;
+    });
+  }
+  for (thread::Worker& lidar : lidars) lidar.join();
   if (camera) camera->join();
   if (serial) serial->join();
   if (pps) pps->join();
 }
 
 void LiveInput::publish_counters(metrics::Registry& metrics) const {
-  devices_->lidar->publish_counters(metrics);
+  for (const auto& lidar : devices_->lidars) lidar->publish_counters(metrics);
   if (devices_->pps) devices_->pps->publish_counters(metrics);
   if (devices_->serial) devices_->serial->publish_counters(metrics);
   if (devices_->camera) devices_->camera->publish_counters(metrics);

@@ -15,14 +15,14 @@
 
 namespace edgesplat::app {
 
-/// The robot's sensors: the LiDAR with its IMU over UDP, the camera (see CameraInput); a thread each. Owned
-/// by one thread.
+/// The robot's sensors: the LiDARs, the first with its IMU, over UDP, the camera (see CameraInput); a thread
+/// each. Owned by one thread.
 class LiveInput {
  public:
   using Sink = std::function<void(sensor::Measurement)>;
 
   /// Opens the sockets. Errors: kIo where a port is taken (names its holder), kInvalidConfig for a bad
-  /// address.
+  /// address, or where the rig has another number of LiDARs than the configuration.
   static Result<std::unique_ptr<LiveInput>> open(const robot_config::RobotConfig& config,
                                                  const sensor::Rig& rig, const Clock& clock, Sink sink,
                                                  replay::Recorder* recorder = nullptr);

@@ -38,8 +38,8 @@ Result<robot_config::RobotConfig> load_config(const Options& o) {
   if (o.server) config.server.enabled = *o.server;
   if (o.interface_name) config.server.link.interface = *o.interface_name;
   if (o.domain) config.server.link.domain = *o.domain;
-  if (o.points_port) config.livox.points_port = static_cast<std::uint16_t>(*o.points_port);
-  if (o.imu_port) config.livox.imu_port = static_cast<std::uint16_t>(*o.imu_port);
+  if (o.points_port) config.livox.front().points_port = static_cast<std::uint16_t>(*o.points_port);
+  if (o.imu_port) config.livox.front().imu_port = static_cast<std::uint16_t>(*o.imu_port);
   if (o.frame_port) config.camera.port = static_cast<std::uint16_t>(*o.frame_port);
   return config;
 }
@@ -64,7 +64,9 @@ Status run_sensors(const Options& o, const robot_config::RobotConfig& config, co
     replay::RecorderConfig recorder;
     recorder.min_free_bytes = config.record.min_free_bytes;
     recorder.sync_period = from_seconds(config.record.sync_period_s);
-    recorder.lidar_protocols = {livox::LidarDriver::protocol_of(config.livox.model)};
+    recorder.lidar_protocols.clear();
+    for (const robot_config::LivoxSettings& lidar : config.livox)
+      recorder.lidar_protocols.push_back(livox::LidarDriver::protocol_of(lidar.model));
     EDGESPLAT_TRY(recording,
                   Recording::start(o.record, config::to_toml(rig), config::to_toml(config), recorder));
   }

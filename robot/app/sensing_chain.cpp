@@ -10,17 +10,31 @@
 namespace edgesplat::app {
 namespace {
 
-void publish_clocks(const sync::GroupBuilder& builder, metrics::Registry& metrics) {
-  const std::pair<const char*, sync::Stream> streams[] = {
-      {"points", sync::Stream::kPoints}, {"imu", sync::Stream::kImu}, {"camera", sync::Stream::kCamera}};
+/// "points" of the first LiDAR, "points_1" of the second, ...
+std::string points_name(std::size_t unit) {
+  return unit == 0 ? "points" : "points_" + std::to_string(unit);
+}
+
+void publish_clocks(const sync::GroupBuilder& builder, std::size_t lidars, metrics::Registry& metrics) {
+  std::vector<std::pair<std::string, sync::Stream>> streams{{"imu", sync::Stream::kImu},
+                                                            {"camera", sync::Stream::kCamera}};
+  for (std::size_t unit = 0; unit < lidars; ++unit)
+    streams.emplace_back(points_name(unit), sync::points_of(unit));
   for (const auto& [name, stream] : streams) {
     const auto clock = builder.clock_state(stream);
     if (!clock) continue;
-    const std::string prefix = std::string("sync.") + name;
+    const std::string prefix = "sync." + name;
     metrics.gauge(prefix + ".disciplined").set(clock->exact ? 1.0 : 0.0);
     metrics.gauge(prefix + ".offset_s").set(clock->offset_s);
     metrics.gauge(prefix + ".drift_ppm").set(clock->drift_ppm);
     metrics.gauge(prefix + ".jitter_us").set(1e6 * clock->jitter_s);
+  }
+}
+
+void publish_lidars(const std::vector<sync::LidarCounters>& lidars, metrics::Registry& metrics) {
+  for (std::size_t unit = 0; unit < lidars.size(); ++unit) {
+    metrics.counter("sync." + points_name(unit) + ".in_groups").add(lidars[unit].points);
+    metrics.counter("sync." + points_name(unit) + ".outs").add(lidars[unit].outs);
   }
 }
 
@@ -81,7 +95,7 @@ void SensingChain::watch_clocks() {
   const sync::GroupCounters counters = group_builder_.counters();
   if (counters.clock_lies > clock_lies_) {
     EDGESPLAT_LOG_WARN("sync",
-                       "a clock that says it is disciplined drifts: its stamps are fitted from now on",
+                       "a clock that says it is disciplined is not: its stamps are fitted from now on",
                        "lies", counters.clock_lies);
   }
   clock_lies_ = counters.clock_lies;
@@ -132,7 +146,8 @@ void SensingChain::publish_counters(metrics::Registry& metrics) const {
       {"sync.clock_lies", s.clock_lies},
   };
   for (const auto& [name, value] : counted) metrics.counter(name).add(value);
-  publish_clocks(group_builder_, metrics);
+  publish_clocks(group_builder_, s.lidars.size(), metrics);
+  publish_lidars(s.lidars, metrics);
   const tracking::TrackingCounters t = tracker_->counters();
   const std::pair<const char*, std::int64_t> tracked[] = {
       {"tracking.groups", t.groups},

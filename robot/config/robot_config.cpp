@@ -34,6 +34,33 @@ void describe_livox(ConfigReader& reader, LivoxSettings& c) {
   reader.field("push_port", c.push_port, {0, 65535}, "UDP port a Mid-360 reports its state to; 0 = any");
 }
 
+/// What goes wrong between two LiDARs on one network.
+void check_livox(ConfigReader& reader, const std::vector<LivoxSettings>& all) {
+  const auto name = [](std::size_t unit) { return "[[livox]] " + std::to_string(unit); };
+  const auto clash = [](std::uint16_t a, std::uint16_t b) { return a == b && a != 0; };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const LivoxSettings& a = all[i];
+    if (all.size() > 1 && a.model != livox::LidarChoice::kListen && a.serial.empty() && a.address.empty())
+      reader.problem("livox", name(i) + " needs a serial number or an address: there are several");
+    for (std::size_t j = 0; j < i; ++j) {
+      const LivoxSettings& b = all[j];
+      const std::string both = name(j) + " and " + std::to_string(i);
+      if (!a.serial.empty() && a.serial == b.serial) reader.problem("livox", both + " have the same serial");
+      if (!a.address.empty() && a.address == b.address)
+        reader.problem("livox", both + " have the same address");
+      const bool apart =
+          a.bind_address != b.bind_address && a.bind_address != "0.0.0.0" && b.bind_address != "0.0.0.0";
+      const std::uint16_t a_ports[] = {a.points_port, a.imu_port, a.control_port, a.push_port};
+      const std::uint16_t b_ports[] = {b.points_port, b.imu_port, b.control_port, b.push_port};
+      for (const std::uint16_t one : a_ports)
+        for (const std::uint16_t other : b_ports)
+          if (!apart && clash(one, other))
+            reader.problem("livox",
+                           both + " both use UDP port " + std::to_string(one) + ": give each its own");
+    }
+  }
+}
+
 void describe_camera(ConfigReader& reader, CameraSettings& c) {
   reader.choice("source", c.source,
                 {{"frame_socket", CameraSource::kFrameSocket}, {"gige", CameraSource::kGige}},
@@ -163,7 +190,10 @@ void describe_server(ConfigReader& reader, ServerLink& c) {
 }  // namespace
 
 void describe(ConfigReader& reader, RobotConfig& c) {
-  reader.table("livox", "the LiDAR", [&] { describe_livox(reader, c.livox); });
+  reader.tables("livox", c.livox, sensor::kMostLidars,
+                "a LiDAR; [[livox]] for each of several, in the order of the rig", livox_defaults,
+                [&](LivoxSettings& livox) { describe_livox(reader, livox); });
+  check_livox(reader, c.livox);
   reader.table("camera", "the camera", [&] { describe_camera(reader, c.camera); });
   reader.table("serial", "an inertial sensor or trigger pulses on a serial line",
                [&] { describe_serial(reader, c.serial); });

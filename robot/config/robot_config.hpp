@@ -16,8 +16,10 @@
 #include "robot/tracking/tracking_config.hpp"
 #include "robot/uplink/uplink.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace edgesplat::config {
 class ConfigReader;
@@ -25,6 +27,7 @@ class ConfigReader;
 
 namespace edgesplat::robot_config {
 
+/// One LiDAR; of several each needs to be named by its serial number or address, and ports of its own.
 struct LivoxSettings {
   livox::LidarChoice model = livox::LidarChoice::kListen;
   std::string serial;   ///< empty: the first that answers
@@ -37,6 +40,17 @@ struct LivoxSettings {
   std::uint16_t control_port = 56101;
   std::uint16_t push_port = 56201;
 };
+
+/// What an entry begins with: every unit has ports of its own.
+[[nodiscard]] inline LivoxSettings livox_defaults(std::size_t unit) {
+  LivoxSettings settings;
+  const auto offset = static_cast<std::uint16_t>(unit);
+  settings.points_port = static_cast<std::uint16_t>(settings.points_port + offset);
+  settings.imu_port = static_cast<std::uint16_t>(settings.imu_port + offset);
+  settings.control_port = static_cast<std::uint16_t>(settings.control_port + offset);
+  settings.push_port = static_cast<std::uint16_t>(settings.push_port + offset);
+  return settings;
+}
 
 enum class CameraSource : std::uint8_t { kFrameSocket, kGige };
 
@@ -111,7 +125,7 @@ struct ServerLink {
 
 /// Everything edgesplat-robot can be told, module by module.
 struct RobotConfig {
-  LivoxSettings livox;
+  std::vector<LivoxSettings> livox{LivoxSettings()};  ///< in the order of the rig's LiDARs; never empty
   CameraSettings camera;
   SerialSettings serial;
   PpsSettings pps;

@@ -52,12 +52,13 @@ LidarDriver::LidarDriver(const LidarDriverConfig& config, LivoxTransport transpo
     : clock_(clock),
       outputs_(std::move(outputs)),
       transport_(std::move(transport)),
-      source_(protocol_of(config.choice)),
+      source_(protocol_of(config.choice), {}, config.unit),
       sees_pulses_(config.sees_pulses) {
   if (config.choice == LidarChoice::kListen) return;
   LidarSessionConfig session;
   session.serial_number = config.serial_number;
   session.address = to_ipv4(config.transport.lidar_address);
+  session.neighbours = config.neighbours;
   session.has_imu = config.has_imu;
   session.return_mode = config.return_mode;
   session.feeds_utc = config.feeds_utc;

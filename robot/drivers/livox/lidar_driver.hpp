@@ -15,6 +15,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 namespace edgesplat::livox {
 
@@ -27,8 +28,10 @@ enum class LidarChoice : std::uint8_t {
 
 struct LidarDriverConfig {
   LidarChoice choice = LidarChoice::kListen;
-  LivoxTransportConfig transport;  ///< its `control` follows `choice`
-  std::string serial_number;       ///< the unit to use; empty: the first that answers
+  LivoxTransportConfig transport;       ///< its `control` follows `choice`
+  std::string serial_number;            ///< the unit to use; empty: the first that answers
+  std::uint8_t unit = 0;                ///< which of the rig's LiDARs
+  std::vector<std::string> neighbours;  ///< serial numbers or addresses of the robot's other LiDARs
   bool has_imu = true;
   ReturnMode return_mode = ReturnMode::kFirst;  ///< kAvia
   bool feeds_utc =

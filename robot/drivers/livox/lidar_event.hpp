@@ -35,7 +35,7 @@ struct LidarEvent {
 /// A kind for the log and for metrics.
 struct LidarEventName {
   const char* words;    ///< "fell silent"
-  const char* counter;  ///< "livox.silences"
+  const char* counter;  ///< "silences", of "livox.silences"
   bool is_problem;      ///< a warning rather than information
 };
 [[nodiscard]] const LidarEventName& name_of(LidarEventKind kind);

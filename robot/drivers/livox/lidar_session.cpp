@@ -21,22 +21,29 @@ std::string seconds_text(nanoseconds duration) {
   return text.data();
 }
 
+/// SDK1 announces the serial number and one character more: both may be configured.
+bool is_named(const std::string& serial_number, const std::string& name) {
+  constexpr std::size_t kSerialLength = 14;
+  return serial_number.starts_with(name) &&
+         serial_number.size() - name.size() <= std::size_t{name.size() == kSerialLength};
+}
+
 }  // namespace
 
 const LidarEventName& name_of(LidarEventKind kind) {
   static constexpr std::array<LidarEventName, kLidarEventKinds> kNames{{
-      {"LiDAR found", "livox.found", false},
-      {"LiDAR measures", "livox.starts", false},
-      {"LiDAR fell silent", "livox.silences", true},
-      {"LiDAR data are back", "livox.recoveries", false},
-      {"LiDAR does not answer", "livox.unreachable", true},
-      {"LiDAR has another address", "livox.moves", true},
-      {"LiDAR refused a setting", "livox.refusals", true},
-      {"LiDAR has no firmware", "livox.no_firmware", true},
-      {"another LiDAR is on the wire", "livox.foreign_units", true},
-      {"LiDAR clock", "livox.sync_changes", true},
-      {"LiDAR reports a fault", "livox.faults", true},
-      {"LiDAR clock started anew", "livox.clock_restarts", true},
+      {"LiDAR found", "found", false},
+      {"LiDAR measures", "starts", false},
+      {"LiDAR fell silent", "silences", true},
+      {"LiDAR data are back", "recoveries", false},
+      {"LiDAR does not answer", "unreachable", true},
+      {"LiDAR has another address", "moves", true},
+      {"LiDAR refused a setting", "refusals", true},
+      {"LiDAR has no firmware", "no_firmware", true},
+      {"another LiDAR is on the wire", "foreign_units", true},
+      {"LiDAR clock", "sync_changes", true},
+      {"LiDAR reports a fault", "faults", true},
+      {"LiDAR clock started anew", "clock_restarts", true},
   }};
   return kNames.at(static_cast<std::size_t>(kind));
 }
@@ -117,14 +124,14 @@ void LidarSession::tell(LidarEventKind kind, std::string detail) {
 }
 
 bool LidarSession::is_wanted(const std::string& serial_number, const Ipv4& ip) {
-  // SDK1 announces the serial number and one character more: both may be configured.
-  const bool is_named =
-      serial_number.starts_with(config_.serial_number) &&
-      serial_number.size() - config_.serial_number.size() <= std::size_t{config_.serial_number.size() == 14};
-  const bool wanted = config_.serial_number.empty()
-                          ? !unit_ || unit_->serial_number.empty() || unit_->serial_number == serial_number
-                          : is_named;
-  if (wanted) return true;
+  const bool is_known = unit_ && !unit_->serial_number.empty();
+  const bool wanted = config_.serial_number.empty() ? (!config_.address || ip == *config_.address) &&
+                                                          (!is_known || unit_->serial_number == serial_number)
+                                                    : is_named(serial_number, config_.serial_number);
+  const bool is_neighbour = std::ranges::any_of(config_.neighbours, [&](const std::string& name) {
+    return is_named(serial_number, name) || name == to_string(ip);
+  });
+  if (wanted || is_neighbour) return wanted;
   const bool told = std::find(foreign_.begin(), foreign_.end(), serial_number) != foreign_.end();
   if (!told && foreign_.size() < kForeignRemembered) {
     foreign_.push_back(serial_number);

@@ -22,8 +22,9 @@
 namespace edgesplat::livox {
 
 struct LidarSessionConfig {
-  std::string serial_number;    ///< the unit to use; empty: the first that answers
-  std::optional<Ipv4> address;  ///< where it is; empty: it is searched for
+  std::string serial_number;            ///< the unit to use; empty: the first that answers
+  std::optional<Ipv4> address;          ///< where it is; empty: it is searched for
+  std::vector<std::string> neighbours;  ///< serial numbers or addresses that others of this robot serve
   bool has_imu = true;
   ReturnMode return_mode = ReturnMode::kFirst;  ///< SDK1
   bool feeds_utc = false;                       ///< a pulse-per-second line without serial time: tell it UTC
@@ -114,7 +115,7 @@ class LidarSession {
   void ask(std::uint32_t sequence, std::vector<std::byte> bytes, HostTime now);
   void send(const Endpoint& to, std::vector<std::byte> bytes);
   void tell(LidarEventKind kind, std::string detail);
-  /// Whether this is the unit to use; one that is not is told of once.
+  /// Whether this is the unit to use; one that is not, and is no neighbour, is told of once.
   [[nodiscard]] bool is_wanted(const std::string& serial_number, const Ipv4& ip);
   /// Takes note of the unit and of an address that changed.
   void meet(const std::string& serial_number, const Endpoint& at);

@@ -178,6 +178,38 @@ TEST_P(LidarSessionTest, OnlyTheUnitWithTheSerialNumberIsUsed) {
   EXPECT_NE(wire.detail(Kind::kForeign).find("47MOTHER000001"), std::string::npos);
 }
 
+TEST_P(LidarSessionTest, ANeighbourIsLeftAloneWithoutAWord) {
+  const auto neighbour = make_unit(GetParam(), unit_config("47MOTHER000001", 20));
+  const auto by_address = make_unit(GetParam(), unit_config("47MOTHER000002", 22));
+  const auto stranger = make_unit(GetParam(), unit_config("47MOTHER000003", 23));
+  const auto mine = make_unit(GetParam(), unit_config("47MMINE0000001", 21));
+  LidarSessionConfig config = session_config(GetParam());
+  config.serial_number = "47MMINE0000001";
+  config.neighbours = {"47MOTHER000001", "127.9.0.22"};
+  session_ = make_session(GetParam(), config);
+  VirtualWire wire(*session_, {neighbour.get(), by_address.get(), stranger.get(), mine.get()});
+  ASSERT_GE(wire.run_until(Kind::kSampling, 3.0), 0.0);
+  wire.run(5.0);
+  EXPECT_TRUE(session_->is_from_unit({127, 9, 0, 21}));
+  EXPECT_EQ(wire.count(Kind::kForeign), 1U);
+  EXPECT_NE(wire.detail(Kind::kForeign).find("47MOTHER000003"), std::string::npos);
+  for (const auto* other : {neighbour.get(), by_address.get(), stranger.get()})
+    EXPECT_EQ(other->counters().sessions, 0U);
+}
+
+TEST_P(LidarSessionTest, AnAddressWithoutASerialNumberIsThatUnitOnly) {
+  const auto other = make_unit(GetParam(), unit_config("47MOTHER000001", 20));
+  const auto mine = make_unit(GetParam(), unit_config("47MMINE0000001", 21));
+  LidarSessionConfig config = session_config(GetParam());
+  config.address = Ipv4{127, 9, 0, 21};
+  session_ = make_session(GetParam(), config);
+  VirtualWire wire(*session_, {other.get(), mine.get()});
+  ASSERT_GE(wire.run_until(Kind::kSampling, 3.0), 0.0);
+  wire.run(5.0);
+  EXPECT_TRUE(session_->is_from_unit({127, 9, 0, 21}));
+  EXPECT_EQ(other->counters().sessions, 0U);
+}
+
 TEST_P(LidarSessionTest, WithoutASerialNumberTheFirstUnitIsKept) {
   const auto first = make_unit(GetParam(), unit_config("47MFIRST000001", 20));
   const auto second = make_unit(GetParam(), unit_config("47MSECOND00001", 21));
