@@ -8,11 +8,13 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace edgesplat::desk {
@@ -20,35 +22,69 @@ namespace {
 
 struct StreamVerbOptions {
   virtual_device::StreamOptions stream;
-  std::string lidar = "raw";
-  std::string lidar_address = "127.0.0.1";
+  std::vector<std::string> lidars = {"raw"};
+  // One for each of several LiDARs, or one for all where that makes sense.
+  std::vector<std::string> lidar_addresses = {"127.0.0.1"};
+  std::vector<std::string> lidar_serials = {"47MVIRTUAL0001"};
+  std::vector<double> lidar_drifts_ppm;
   std::string lidar_sync = "ptp";
   std::vector<std::string> lidar_faults;
   virtual_device::LidarDeviceConfig device;
   bool json = false;
 };
 
-/// The virtual LiDAR that was asked for; nothing for bare datagrams.
-Result<std::optional<virtual_device::LidarDeviceConfig>> lidar_device(const StreamVerbOptions& options) {
-  if (options.lidar == "raw") return std::nullopt;
-  virtual_device::LidarDeviceConfig device = options.device;
-  device.model =
-      options.lidar == "avia" ? virtual_device::LidarModel::kAvia : virtual_device::LidarModel::kMid360;
-  device.seed = options.stream.seed;
-  device.unit.clock.seed = options.stream.seed;
-  using virtual_device::UnitSync;
-  device.unit.clock.sync = options.lidar_sync == "ptp"   ? UnitSync::kPtp
-                           : options.lidar_sync == "gps" ? UnitSync::kPulse
-                                                         : UnitSync::kNone;
-  EDGESPLAT_TRY(device.unit.ip, virtual_device::parse_address(options.lidar_address));
-  for (const std::string& text : options.lidar_faults) {
-    EDGESPLAT_TRY(device.faults.emplace_back(), virtual_device::parse_lidar_fault(text));
+/// "1:silence@3+2" happens to the second LiDAR, without a number to the first.
+Result<std::pair<std::size_t, virtual_device::LidarFault>> parse_fault_of(const std::string& text,
+                                                                          std::size_t lidars) {
+  std::size_t unit = 0;
+  std::string fault = text;
+  if (text.size() > 2 && text[1] == ':' && text[0] >= '0' && text[0] <= '9') {
+    unit = static_cast<std::size_t>(text[0] - '0');
+    fault = text.substr(2);
   }
-  return device;
+  if (unit >= lidars)
+    return fail(Errc::kInvalidConfig, "--lidar-fault " + text + ": there are " + std::to_string(lidars) +
+                                          " LiDARs, counted from 0");
+  EDGESPLAT_TRY(auto parsed, virtual_device::parse_lidar_fault(fault));
+  return std::pair{unit, parsed};
+}
+
+/// The virtual LiDARs that were asked for; none for bare datagrams.
+Result<std::vector<virtual_device::LidarDeviceConfig>> lidar_devices(const StreamVerbOptions& options) {
+  std::vector<virtual_device::LidarDeviceConfig> devices;
+  const std::size_t count = options.lidars.size();
+  if (count == 1 && options.lidars.front() == "raw") return devices;
+  if (options.lidar_addresses.size() != count || options.lidar_serials.size() != count)
+    return fail(Errc::kInvalidConfig, "--lidar names " + std::to_string(count) +
+                                          ": --lidar-address and --lidar-serial must name as many");
+  for (std::size_t unit = 0; unit < count; ++unit) {
+    if (options.lidars[unit] == "raw") return fail(Errc::kInvalidConfig, "--lidar raw stands alone");
+    virtual_device::LidarDeviceConfig device = options.device;
+    device.model = options.lidars[unit] == "avia" ? virtual_device::LidarModel::kAvia
+                                                  : virtual_device::LidarModel::kMid360;
+    device.seed = device.unit.clock.seed = options.stream.seed + unit;
+    using virtual_device::UnitSync;
+    device.unit.clock.sync = options.lidar_sync == "ptp"   ? UnitSync::kPtp
+                             : options.lidar_sync == "gps" ? UnitSync::kPulse
+                                                           : UnitSync::kNone;
+    device.unit.serial_number = options.lidar_serials[unit];
+    if (!options.lidar_drifts_ppm.empty())
+      device.unit.clock.drift_ppm =
+          options.lidar_drifts_ppm[std::min(unit, options.lidar_drifts_ppm.size() - 1)];
+    EDGESPLAT_TRY(device.unit.ip, virtual_device::parse_address(options.lidar_addresses[unit]));
+    devices.push_back(std::move(device));
+  }
+  for (const std::string& text : options.lidar_faults) {
+    EDGESPLAT_TRY(const auto fault, parse_fault_of(text, count));
+    devices[fault.first].faults.push_back(fault.second);
+  }
+  return devices;
 }
 
 nlohmann::json lidar_json(const virtual_device::LidarDeviceCounters& lidar) {
-  return {{"unsent", lidar.unsent},
+  return {{"points_sent", lidar.points_sent},
+          {"imu_sent", lidar.imu_sent},
+          {"unsent", lidar.unsent},
           {"faults", lidar.faults},
           {"requests", lidar.unit.requests},
           {"bad_frames", lidar.unit.bad_frames},
@@ -60,6 +96,8 @@ nlohmann::json lidar_json(const virtual_device::LidarDeviceCounters& lidar) {
 }
 
 nlohmann::json to_json(const virtual_device::StreamReport& report) {
+  nlohmann::json lidars = nlohmann::json::array();
+  for (const auto& lidar : report.lidars) lidars.push_back(lidar_json(lidar));
   return {{"event", "done"},
           {"points_sent", report.points_sent},
           {"imu_sent", report.imu_sent},
@@ -77,14 +115,15 @@ nlohmann::json to_json(const virtual_device::StreamReport& report) {
           {"camera_connected", report.camera_connected},
           {"stopped", report.stopped},
           {"lidar_asked", report.lidar_asked},
-          {"lidar", report.lidar ? lidar_json(*report.lidar) : nlohmann::json()},
+          {"lidar", lidars.empty() ? nlohmann::json() : lidars.front()},
+          {"lidars", lidars},
           {"recording_problem", report.recording_problem}};
 }
 
 Status run_stream(const StreamVerbOptions& options) {
   const thread::StopSignal stop;
   virtual_device::StreamOptions stream = options.stream;
-  EDGESPLAT_TRY(stream.lidar, lidar_device(options));
+  EDGESPLAT_TRY(stream.lidars, lidar_devices(options));
   EDGESPLAT_TRY(const auto report, virtual_device::stream_recording(stream, stop.token()));
   const nlohmann::json figures = to_json(report);
   if (options.json) {
@@ -100,28 +139,35 @@ Status run_stream(const StreamVerbOptions& options) {
 void add_lidar_options(CLI::App& verb, StreamVerbOptions& options) {
   auto& unit = options.device.unit;
   verb.add_option(
-          "--lidar", options.lidar,
+          "--lidar", options.lidars,
           "raw = datagrams as recorded to --points-port and --imu-port; mid360, avia = a virtual LiDAR that "
-          "the robot has to find and to start, with a clock of its own")
+          "the robot has to find and to start, with a clock of its own; several with commas between, one for "
+          "each of the recording's")
+      ->delimiter(',')
       ->check(CLI::IsMember({"raw", "mid360", "avia"}))
       ->capture_default_str();
-  verb.add_option("--lidar-address", options.lidar_address, "Its IPv4 address, one of this machine's")
+  verb.add_option("--lidar-address", options.lidar_addresses,
+                  "Its IPv4 address, one of this machine's; for several with commas between")
+      ->delimiter(',')
       ->capture_default_str();
-  verb.add_option("--lidar-serial", unit.serial_number, "Its serial number, 14 characters")
+  verb.add_option("--lidar-serial", options.lidar_serials,
+                  "Its serial number, 14 characters; for several with commas between")
+      ->delimiter(',')
       ->capture_default_str();
   verb.add_option("--lidar-sync", options.lidar_sync, "What disciplines its clock")
       ->check(CLI::IsMember({"none", "ptp", "gps"}))
       ->capture_default_str();
-  verb.add_option("--lidar-drift-ppm", unit.clock.drift_ppm, "Of its crystal")
-      ->check(CLI::Range(-1000.0, 1000.0))
-      ->capture_default_str();
+  verb.add_option("--lidar-drift-ppm", options.lidar_drifts_ppm,
+                  "Of its crystal, 30 where not said; for several with commas between")
+      ->delimiter(',')
+      ->check(CLI::Range(-1000.0, 1000.0));
   verb.add_option("--lidar-servo-s", unit.clock.servo_sigma_s, "Deviation of its clock's servo")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   verb.add_option(
           "--lidar-fault", options.lidar_faults,
           "silence@T+S, reboot@T+S, address@T+S=IP, loss@T+S=SHARE, stuck-sync@T, clock-step@T=S (T, S in "
-          "seconds); may be repeated")
+          "seconds); 1:silence@T+S happens to the second of several; may be repeated")
       ->allow_extra_args(false);
   verb.add_option("--wait-for-lidar", options.stream.wait_for_lidar_s,
                   "Seconds to wait for the robot to start a virtual LiDAR")

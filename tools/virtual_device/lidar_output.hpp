@@ -20,12 +20,12 @@ namespace edgesplat::virtual_device {
 struct StreamOptions;
 struct StreamReport;
 
-/// Where the LiDAR packets of a recording go: as they are to one address, or through a virtual LiDAR that
-/// wants to be found and asked. Single-owner.
+/// Where the packets of one of a recording's LiDARs go: as they are to one address, or through a virtual
+/// LiDAR that wants to be found and asked. Single-owner.
 class LidarOutput {
  public:
   /// Errors: those of DatagramSender::open and LidarDevice::start.
-  static Result<LidarOutput> open(const StreamOptions& options, const Clock& clock);
+  static Result<LidarOutput> open(const StreamOptions& options, std::size_t unit, const Clock& clock);
 
   /// A virtual LiDAR waits until it is asked to measure; false when it was not in time.
   bool wait_for_host(std::chrono::milliseconds timeout, const std::stop_token& stop);
@@ -33,10 +33,11 @@ class LidarOutput {
   void begin(HostTime first);
   void points(std::span<const std::byte> datagram, HostTime recorded);
   void imu(std::span<const std::byte> datagram, HostTime recorded);
+  /// Adds its figures.
   void report(StreamReport& report) const;
 
  private:
-  LidarOutput(const StreamOptions& options, std::optional<DatagramSender> points,
+  LidarOutput(const StreamOptions& options, std::size_t unit, std::optional<DatagramSender> points,
               std::optional<DatagramSender> imu, std::unique_ptr<LidarDevice> device);
   void send(DatagramSender& sender, std::span<const std::byte> datagram);
 

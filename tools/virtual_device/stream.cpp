@@ -11,9 +11,11 @@
 #include "tools/virtual_device/lidar_output.hpp"
 #include "tools/virtual_device/pacer.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,10 +32,10 @@ Status check_options(const StreamOptions& options) {
   if (!(options.wait_for_lidar_s >= 0.0 && options.wait_for_lidar_s <= 3600.0)) {
     return fail(Errc::kInvalidConfig, "--wait-for-lidar must be in [0, 3600] s");
   }
-  if (options.lidar && options.speed != 1.0) {
+  if (!options.lidars.empty() && options.speed != 1.0) {
     return fail(Errc::kInvalidConfig, "a virtual LiDAR's clock knows no other --speed than 1");
   }
-  if (options.lidar && (options.faults.flip > 0.0 || options.faults.drop > 0.0)) {
+  if (!options.lidars.empty() && (options.faults.flip > 0.0 || options.faults.drop > 0.0)) {
     return fail(Errc::kInvalidConfig,
                 "--flip-bits and --drop are for bare datagrams; see --lidar-fault loss@...");
   }
@@ -44,6 +46,26 @@ Status check_options(const StreamOptions& options) {
   return {};
 }
 
+/// How many LiDARs the recording has: at least one, its topics are numbered.
+std::size_t count_lidars(const io::McapReader& reader) {
+  std::size_t count = 1;
+  while (reader.find_channel(io::topic_of_lidar(io::kLidarPointsTopic, count)) != nullptr) ++count;
+  return count;
+}
+
+Result<std::vector<LidarOutput>> open_lidars(const StreamOptions& options, std::size_t count,
+                                             const Clock& clock) {
+  if (!options.lidars.empty() && options.lidars.size() != count)
+    return fail(Errc::kInvalidConfig, "the recording has " + std::to_string(count) +
+                                          " LiDARs, --lidar names " + std::to_string(options.lidars.size()));
+  std::vector<LidarOutput> lidars;
+  for (std::size_t unit = 0; unit < count; ++unit) {
+    EDGESPLAT_TRY(LidarOutput lidar, LidarOutput::open(options, unit, clock));
+    lidars.push_back(std::move(lidar));
+  }
+  return lidars;
+}
+
 std::chrono::milliseconds seconds_to_ms(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * seconds));
 }
@@ -51,20 +73,39 @@ std::chrono::milliseconds seconds_to_ms(double seconds) {
 // Hands each message of a recording to the device that sent it.
 class Player {
  public:
-  Player(LidarOutput lidar, std::unique_ptr<CameraEnd> camera)
-      : lidar_(std::move(lidar)), camera_(std::move(camera)) {}
+  Player(std::vector<LidarOutput> lidars, std::unique_ptr<CameraEnd> camera)
+      : lidars_(std::move(lidars)), camera_(std::move(camera)) {
+    for (std::size_t unit = 0; unit < lidars_.size(); ++unit) {
+      points_topics_.push_back(io::topic_of_lidar(io::kLidarPointsTopic, unit));
+      imu_topics_.push_back(io::topic_of_lidar(io::kLidarImuTopic, unit));
+    }
+  }
 
-  LidarOutput& lidar() { return lidar_; }
+  /// Those of the LiDARs.
+  [[nodiscard]] std::vector<std::string> topics() const {
+    std::vector<std::string> all = points_topics_;
+    all.insert(all.end(), imu_topics_.begin(), imu_topics_.end());
+    return all;
+  }
+  /// True when each was asked in time.
+  bool wait_for_hosts(std::chrono::milliseconds timeout, const std::stop_token& stop) {
+    bool all = true;
+    for (LidarOutput& lidar : lidars_) all = lidar.wait_for_host(timeout, stop) && all;
+    return all;
+  }
+  void begin(HostTime first) {
+    for (LidarOutput& lidar : lidars_) lidar.begin(first);
+  }
   bool wait_for_camera(std::chrono::milliseconds timeout, const std::stop_token& stop) {
     return camera_->wait_for_robot(timeout, stop);
   }
   void play(const io::McapMessage& message) {
     const std::string_view topic = message.channel->topic;
     bool good = true;
-    if (topic == io::kLidarPointsTopic) {
-      good = play_datagram(message, &LidarOutput::points);
-    } else if (topic == io::kLidarImuTopic) {
-      good = play_datagram(message, &LidarOutput::imu);
+    if (const auto unit = index_of(points_topics_, topic)) {
+      good = play_datagram(message, lidars_[*unit], &LidarOutput::points);
+    } else if (const auto with_imu = index_of(imu_topics_, topic)) {
+      good = play_datagram(message, lidars_[*with_imu], &LidarOutput::imu);
     } else if (topic == io::kCameraMetaTopic) {
       const auto meta = io::decode_frame_meta(message.payload);
       good = meta.has_value();
@@ -76,16 +117,21 @@ class Player {
   }
   void finish(StreamReport& report) {
     camera_->finish(report);
-    lidar_.report(report);
+    for (const LidarOutput& lidar : lidars_) lidar.report(report);
     report.messages_skipped = skipped_;
   }
 
  private:
-  bool play_datagram(const io::McapMessage& message,
+  static std::optional<std::size_t> index_of(const std::vector<std::string>& topics, std::string_view topic) {
+    const auto found = std::ranges::find(topics, topic);
+    if (found == topics.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - topics.begin());
+  }
+  bool play_datagram(const io::McapMessage& message, LidarOutput& lidar,
                      void (LidarOutput::*hand_on)(std::span<const std::byte>, HostTime)) {
     const auto raw = io::decode_raw_datagram(message.payload);
     if (!raw) return false;
-    (lidar_.*hand_on)(raw->datagram, message.log_time);
+    (lidar.*hand_on)(raw->datagram, message.log_time);
     return true;
   }
   bool play_image(std::span<const std::byte> payload) {
@@ -110,7 +156,9 @@ class Player {
     return true;
   }
 
-  LidarOutput lidar_;
+  std::vector<LidarOutput> lidars_;  ///< by unit
+  std::vector<std::string> points_topics_;
+  std::vector<std::string> imu_topics_;
   std::unique_ptr<CameraEnd> camera_;
   std::optional<io::FrameMeta> meta_;
   std::uint32_t next_sequence_ = 0;
@@ -123,17 +171,19 @@ Result<StreamReport> stream_recording(const StreamOptions& options, const std::s
   EDGESPLAT_TRY_STATUS(check_options(options));
   EDGESPLAT_TRY(io::McapReader reader, io::McapReader::open(options.recording));
   const SteadyClock clock;
-  EDGESPLAT_TRY(LidarOutput lidar, LidarOutput::open(options, clock));
+  EDGESPLAT_TRY(auto lidars, open_lidars(options, count_lidars(reader), clock));
   EDGESPLAT_TRY(auto camera, open_camera(options, clock));
-  Player player(std::move(lidar), std::move(camera));
+  Player player(std::move(lidars), std::move(camera));
 
   StreamReport report;
   if (reader.find_channel(io::kCameraImageTopic) != nullptr) {
     report.camera_connected = player.wait_for_camera(seconds_to_ms(options.wait_for_camera_s), stop);
   }
-  reader.select({.topics = {std::string(io::kLidarPointsTopic), std::string(io::kLidarImuTopic),
-                            std::string(io::kCameraMetaTopic), std::string(io::kCameraImageTopic)}});
-  report.lidar_asked = player.lidar().wait_for_host(seconds_to_ms(options.wait_for_lidar_s), stop);
+  std::vector<std::string> topics = player.topics();
+  topics.emplace_back(io::kCameraMetaTopic);
+  topics.emplace_back(io::kCameraImageTopic);
+  reader.select({.topics = std::move(topics)});
+  report.lidar_asked = player.wait_for_hosts(seconds_to_ms(options.wait_for_lidar_s), stop);
   Pacer pacer(options.speed);
   bool begun = false;
   while (const auto message = reader.next()) {
@@ -141,7 +191,7 @@ Result<StreamReport> stream_recording(const StreamOptions& options, const std::s
       report.stopped = true;
       break;
     }
-    if (!std::exchange(begun, true)) player.lidar().begin(message->log_time);
+    if (!std::exchange(begun, true)) player.begin(message->log_time);
     player.play(*message);
   }
   player.finish(report);

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The edgesplat authors
+// SPDX-License-Identifier: Apache-2.0
+// The robot program with two virtual LiDARs, each with an address, a serial number and a clock of its own,
+// one of which is pulled while it drives.
+#include "test/integration/program.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace edgesplat::test {
+namespace {
+
+/// Under a sanitizer the robot may be too slow to follow live sensors.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kMustKeepUp = false;
+#else
+constexpr bool kMustKeepUp = true;
+#endif
+
+std::size_t count_of(const std::string& words, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+  return count;
+}
+
+/// An address that no other test on this machine has at the same time.
+std::string address(int last) {
+  return "127." + std::to_string(10 + ::getpid() / 256 % 200) + "." + std::to_string(::getpid() % 256) + "." +
+         std::to_string(last);
+}
+std::string serial(int unit) {
+  return "47M" + std::string(unit == 0 ? "A" : "B") + std::to_string(1'000'000'000 + ::getpid());
+}
+
+/// The second LiDAR's model; the first is a Mid-360.
+class TwoLidarsRun : public testing::TestWithParam<const char*> {
+ protected:
+  TwoLidarsRun() {
+    recording_ = shared_recording(std::string("corridor12_mid360_") + GetParam(),
+                                  {"--world", "corridor", "--seconds", "12", "--pedestrians", "2", "--seed",
+                                   "3", "--lidar", std::string("mid360,") + GetParam()});
+    const auto extracted = run_program(
+        "edgesplat", {"inspect", recording_, "--extract", "rig.toml", "--to", in_folder("rig.toml")});
+    EXPECT_EQ(extracted.exit_code, 0) << extracted.err;
+    std::ofstream config(in_folder("robot.toml"));
+    for (const int unit : {0, 1}) {
+      config << "[[livox]]\nmodel = \"" << (unit == 0 ? "mid360" : GetParam()) << "\"\nserial = \""
+             << serial(unit) << "\"\nbind_address = \"" << address(1) << "\"\ncontrol_port = 0\n";
+    }
+  }
+  [[nodiscard]] std::string in_folder(const std::string& name) const { return folder_.path() / name; }
+
+  /// Drives through the recording with these faults of the LiDARs.
+  void drive(const std::vector<std::string>& faults) {
+    const std::string frame_port = std::to_string(20'000 + ::getpid() % 10'000);
+    Program robot("edgesplat-robot", {"--live", "--rig", in_folder("rig.toml"), "--config",
+                                      in_folder("robot.toml"), "--server", "off", "--out", in_folder("run"),
+                                      "--record", in_folder("live.mcap"), "--frame-port", frame_port});
+    ASSERT_TRUE(robot.wait_for_stderr("listening unit=1", std::chrono::seconds(20)));
+    std::vector<std::string> stream = {"stream",
+                                       recording_,
+                                       "--lidar",
+                                       std::string("mid360,") + GetParam(),
+                                       "--lidar-serial",
+                                       serial(0) + "," + serial(1),
+                                       "--lidar-address",
+                                       address(10) + "," + address(11),
+                                       "--lidar-drift-ppm",
+                                       "30,-45",
+                                       "--frame-port",
+                                       frame_port,
+                                       "--json"};
+    for (const std::string& fault : faults) {
+      stream.emplace_back("--lidar-fault");
+      stream.push_back(fault);
+    }
+    const auto streamed = run_program("edgesplat", std::move(stream));
+    robot.signal(SIGTERM);
+    const auto run = robot.wait(std::chrono::seconds(60));
+    ASSERT_EQ(streamed.exit_code, 0) << streamed.err;
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    log_ = run.err;
+    device_ = nlohmann::json::parse(streamed.out);
+    const auto metrics = nlohmann::json::parse(text_of(in_folder("run/robot/metrics.json")));
+    counters_ = metrics["counters"];
+    gauges_ = metrics["gauges"];
+  }
+  [[nodiscard]] double ate_m(const std::string& run) const {
+    const auto accuracy =
+        run_program("edgesplat", {"report", "--run", in_folder(run), "--input", recording_, "--json"});
+    EXPECT_EQ(accuracy.exit_code, 0) << accuracy.err;
+    const auto summary = nlohmann::json::parse(accuracy.out);
+    return summary["ate_rmse_m"].is_number() ? summary["ate_rmse_m"].get<double>() : 1e9;
+  }
+  [[nodiscard]] std::uint64_t counter(const std::string& name) const {
+    EXPECT_TRUE(counters_.contains(name)) << name;
+    return counters_.value(name, std::uint64_t{0});
+  }
+
+  std::string recording_;
+  std::string log_;
+  nlohmann::json device_;
+  nlohmann::json counters_;
+  nlohmann::json gauges_;
+
+ private:
+  TempDir folder_;
+};
+
+TEST_P(TwoLidarsRun, AreFoundStartedTrackedAndRecordedEachByItself) {
+  drive({});
+  EXPECT_TRUE(device_["lidar_asked"].get<bool>());
+  for (const std::size_t unit : {0U, 1U}) {
+    const std::string prefix = "livox_" + std::to_string(unit);
+    EXPECT_EQ(counter(prefix + ".points.packets"), device_["lidars"][unit]["points_sent"]);
+    EXPECT_EQ(counter(prefix + ".points.lost"), 0U);
+    EXPECT_EQ(counter(prefix + ".found"), 1U);
+    EXPECT_EQ(counter(prefix + ".silences"), 0U);
+    EXPECT_EQ(counter(prefix + ".foreign_units"), 0U) << "the other is no stranger";
+  }
+  EXPECT_EQ(counter("livox.points.packets"), device_["points_sent"]);
+  EXPECT_EQ(counter("sync.points.outs") + counter("sync.points_1.outs"), 0U);
+  EXPECT_EQ(gauges_["sync.points.disciplined"].get<double>(), 1.0);
+  EXPECT_EQ(gauges_["sync.points_1.disciplined"].get<double>(), 1.0);
+  if (!kMustKeepUp) return;
+  const double live_m = ate_m("run");
+  std::printf("live, two: ATE %.1f mm\n", 1e3 * live_m);
+  EXPECT_LT(live_m, 0.02);
+  const auto replayed = run_program(
+      "edgesplat-robot",
+      {"--replay", in_folder("live.mcap"), "--lockstep", "--server", "off", "--out", in_folder("replayed")},
+      std::chrono::seconds(300));
+  ASSERT_EQ(replayed.exit_code, 0) << replayed.err;
+  EXPECT_EQ(text_of(in_folder("replayed/robot/trajectory.tum")),
+            text_of(in_folder("run/robot/trajectory.tum")));
+}
+
+TEST_P(TwoLidarsRun, ThePulledOneIsMissedByNobodyAndComesBack) {
+  drive({"1:silence@5+2"});
+  EXPECT_EQ(device_["lidars"][1]["faults"].get<int>(), 1);
+  EXPECT_EQ(counter("livox_0.silences"), 0U);
+  EXPECT_EQ(counter("livox_1.silences"), 1U);
+  EXPECT_EQ(counter("livox_1.recoveries"), 1U);
+  EXPECT_EQ(counter("sync.points.outs"), 0U);
+  EXPECT_EQ(counter("sync.points_1.outs"), 1U);
+  // One line for the event, and one for its end, which say whose.
+  EXPECT_EQ(count_of("LiDAR fell silent", log_), 1U) << log_;
+  EXPECT_EQ(count_of("LiDAR 1: points", log_), 1U) << log_;
+  EXPECT_EQ(count_of("LiDAR data are back", log_), 1U);
+  if (!kMustKeepUp) return;
+  const double live_m = ate_m("run");
+  std::printf("live, the second pulled for 2 s: ATE %.1f mm\n", 1e3 * live_m);
+  EXPECT_LT(live_m, 0.02);
+}
+
+TEST_P(TwoLidarsRun, WithoutTheFirstAndItsImuTheSecondCarriesTheTrack) {
+  drive({"0:silence@5+2"});
+  EXPECT_EQ(counter("livox_0.silences"), 1U);
+  EXPECT_EQ(counter("livox_0.recoveries"), 1U);
+  EXPECT_EQ(counter("livox_1.silences"), 0U);
+  EXPECT_EQ(counter("sync.points.outs"), 1U);
+  EXPECT_EQ(count_of("LiDAR fell silent", log_), 1U) << log_;
+  if (!kMustKeepUp) return;
+  const double live_m = ate_m("run");
+  std::printf("live, the first and its IMU pulled for 2 s: ATE %.1f mm\n", 1e3 * live_m);
+  EXPECT_LT(live_m, 0.10);
+}
+
+TEST_P(TwoLidarsRun, ARigAndAConfigurationOfDifferentNumbersAreRefused) {
+  const auto run =
+      run_program("edgesplat-robot", {"--live", "--rig", in_folder("rig.toml"), "--server", "off"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("give robot.toml a [[livox]] for each [[lidar]]"), std::string::npos) << run.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Second, TwoLidarsRun, testing::Values("mid360", "avia"),
+                         [](const testing::TestParamInfo<const char*>& model) { return model.param; });
+
+}  // namespace
+}  // namespace edgesplat::test
