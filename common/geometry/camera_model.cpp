@@ -16,11 +16,12 @@ struct Distorted {
   Eigen::Matrix2d jacobian;
 };
 
-Distorted distort_radtan(const Eigen::Vector2d& n, const std::array<double, 4>& d) {
-  const auto [k1, k2, p1, p2] = d;
+Distorted distort_radtan(const Eigen::Vector2d& n, const CameraModel& camera) {
+  const auto [k1, k2, p1, p2] = camera.distortion;
+  const double k3 = camera.k3;
   const double x = n.x(), y = n.y(), r2 = n.squaredNorm();
-  const double radial = 1.0 + r2 * (k1 + r2 * k2);
-  const double slope = k1 + 2.0 * k2 * r2;  // d(radial)/d(r2)
+  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  const double slope = k1 + r2 * (2.0 * k2 + 3.0 * k3 * r2);  // d(radial)/d(r2)
   Distorted out;
   out.xy = {x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
             y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
@@ -31,14 +32,21 @@ Distorted distort_radtan(const Eigen::Vector2d& n, const std::array<double, 4>& 
 }
 
 /// True where the radius of the picture grows with r2 all the way from the centre. The slope of
-/// r (1 + k1 r2 + k2 r2^2) is 1 + 3 k1 s + 5 k2 s^2 with s = r2; beyond its first root the polynomial has
-/// turned back, even where it grows again further out.
-bool before_radtan_fold(double r2, const std::array<double, 4>& d) {
-  const double a = 5.0 * d[1];
-  const double b = 3.0 * d[0];
-  if (1.0 + r2 * (b + r2 * a) <= 0.0) return false;
-  const bool dips_before = a > 0.0 && b < 0.0 && -b < 2.0 * a * r2 && b * b >= 4.0 * a;
-  return !dips_before;
+/// r (1 + k1 r2 + k2 r2^2 + k3 r2^3) is 1 + 3 k1 s + 5 k2 s^2 + 7 k3 s^3 with s = r2; beyond its first root
+/// the polynomial has turned back, even where it grows again further out.
+bool before_radtan_fold(double r2, const CameraModel& camera) {
+  const double a = 7.0 * camera.k3;
+  const double b = 5.0 * camera.distortion[1];
+  const double c = 3.0 * camera.distortion[0];
+  const auto grows_at = [&](double s) { return 1.0 + s * (c + s * (b + s * a)) > 0.0; };
+  if (!grows_at(r2)) return false;
+  // Its lowest place before r2: a root of c + 2 b s + 3 a s^2, written so that a = 0 is nothing special.
+  const double under_root = b * b - 3.0 * a * c;
+  if (under_root <= 0.0) return true;
+  const double q = -(b + std::copysign(std::sqrt(under_root), b));
+  for (const double s : {q / (3.0 * a), c / q})
+    if (s > 0.0 && s < r2 && !grows_at(s)) return false;
+  return true;
 }
 
 double fisheye_radius(double theta, const std::array<double, 4>& k) {
@@ -64,7 +72,7 @@ bool before_fisheye_fold(double theta, const std::array<double, 4>& k) {
 Status CameraModel::validate() const {
   const bool finite = std::isfinite(fx_px) && std::isfinite(fy_px) && std::isfinite(cx_px) &&
                       std::isfinite(cy_px) && std::isfinite(distortion[0]) && std::isfinite(distortion[1]) &&
-                      std::isfinite(distortion[2]) && std::isfinite(distortion[3]);
+                      std::isfinite(distortion[2]) && std::isfinite(distortion[3]) && std::isfinite(k3);
   if (!finite) return fail(Errc::kInvalidConfig, "camera model: a parameter is not finite");
   if (width_px <= 0 || height_px <= 0)
     return fail(Errc::kInvalidConfig, "camera model: size must be positive");
@@ -79,8 +87,8 @@ std::optional<Eigen::Vector2d> CameraModel::project(const Eigen::Vector3d& p) co
   if (kind == CameraKind::kPinhole) {
     if (p.z() <= 1e-6) return std::nullopt;
     const Eigen::Vector2d n = p.head<2>() / p.z();
-    if (!before_radtan_fold(n.squaredNorm(), distortion)) return std::nullopt;
-    const Distorted d = distort_radtan(n, distortion);
+    if (!before_radtan_fold(n.squaredNorm(), *this)) return std::nullopt;
+    const Distorted d = distort_radtan(n, *this);
     if (d.jacobian.determinant() <= 0.0) return std::nullopt;  // the tangential terms can fold it, too
     xy = d.xy;
   } else {
@@ -99,7 +107,7 @@ Eigen::Vector3d CameraModel::unproject(const Eigen::Vector2d& pixel) const {
   if (kind == CameraKind::kPinhole) {
     Eigen::Vector2d n = target;
     for (int i = 0; i < 20; ++i) {
-      const Distorted d = distort_radtan(n, distortion);
+      const Distorted d = distort_radtan(n, *this);
       const Eigen::Vector2d step = d.jacobian.inverse() * (d.xy - target);
       if (!step.allFinite()) break;
       n -= step;
@@ -128,9 +136,14 @@ bool CameraModel::contains(const Eigen::Vector2d& pixel, double border_px) const
 }
 
 CameraModel CameraModel::scaled(double factor) const {
+  return scaled_to(std::max(1, static_cast<int>(std::lround(width_px * factor))),
+                   std::max(1, static_cast<int>(std::lround(height_px * factor))));
+}
+
+CameraModel CameraModel::scaled_to(int to_width_px, int to_height_px) const {
   CameraModel out = *this;
-  out.width_px = std::max(1, static_cast<int>(std::lround(width_px * factor)));
-  out.height_px = std::max(1, static_cast<int>(std::lround(height_px * factor)));
+  out.width_px = to_width_px;
+  out.height_px = to_height_px;
   const double sx = static_cast<double>(out.width_px) / width_px;
   const double sy = static_cast<double>(out.height_px) / height_px;
   out.fx_px *= sx;

@@ -12,7 +12,7 @@
 namespace edgesplat::geometry {
 
 enum class CameraKind {
-  kPinhole,  ///< radial-tangential distortion k1, k2, p1, p2 (OpenCV's first four)
+  kPinhole,  ///< radial-tangential distortion k1, k2, p1, p2 (OpenCV's first four) and k3
   kFisheye,  ///< equidistant with k1..k4 (OpenCV fisheye, Kannala-Brandt)
 };
 
@@ -28,6 +28,7 @@ struct CameraModel {
   double cx_px = 0.0;
   double cy_px = 0.0;
   std::array<double, 4> distortion{};  ///< pinhole: k1 k2 p1 p2; fisheye: k1 k2 k3 k4
+  double k3 = 0.0;                     ///< pinhole only; a rig's file and a keyframe on the link have none
 
   /// kInvalidConfig with the reason where a field makes no sense (size <= 0, focal length <= 0, not finite).
   [[nodiscard]] Status validate() const;
@@ -39,8 +40,10 @@ struct CameraModel {
   [[nodiscard]] Eigen::Vector3d unproject(const Eigen::Vector2d& pixel) const;
   /// True when the pixel lies in the picture with `border_px` to spare.
   [[nodiscard]] bool contains(const Eigen::Vector2d& pixel, double border_px = 0.0) const;
+  [[nodiscard]] bool has_distortion() const { return k3 != 0.0 || distortion != decltype(distortion){}; }
   /// The same camera for a picture scaled by `factor` (size rounded, intrinsics exact for the rounded size).
   [[nodiscard]] CameraModel scaled(double factor) const;
+  [[nodiscard]] CameraModel scaled_to(int to_width_px, int to_height_px) const;
   bool operator==(const CameraModel&) const = default;
 };
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-/// What the two forms of camera sets have in common. Inside common/io only.
+/// What the forms of camera sets have in common. Inside common/io only.
 namespace edgesplat::io {
 
 using PoseRows = Eigen::Matrix<double, 3, 4>;
@@ -16,6 +16,9 @@ using PoseRows = Eigen::Matrix<double, 3, 4>;
 [[nodiscard]] Result<PoseRows> pose_rows(const json::Json& object, std::string_view key);
 /// 0..16384; 0 where the key is absent.
 [[nodiscard]] Result<int> size_px(const json::Json& object, std::string_view key);
+
+/// A name for each camera that is its own and has no folders in it.
+void name_cameras(std::vector<PosedCamera>& cameras);
 
 [[nodiscard]] Result<CameraSet> parse_nerf_transforms(const json::Json& file);
 

@@ -8,6 +8,7 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -26,12 +27,14 @@ Result<double> required(const json::Json& object, std::string_view key) {
 Status read_distortion(const json::Json& object, geometry::CameraModel& camera) {
   const json::Json* field = json::find(object, "distortion");
   if (field == nullptr) return {};
-  if (!field->is_array() || field->size() != 4)
-    return fail(Errc::kCorrupt, "\"distortion\" is not four numbers");
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (!(*field)[i].is_number()) return fail(Errc::kCorrupt, "\"distortion\" is not four numbers");
-    camera.distortion[i] = (*field)[i].get<double>();
+  const std::size_t most = camera.kind == geometry::CameraKind::kPinhole ? 5 : 4;
+  const auto is_number = [](const json::Json& value) { return value.is_number(); };
+  if (!field->is_array() || field->size() < 4 || field->size() > most ||
+      !std::all_of(field->begin(), field->end(), is_number)) {
+    return fail(Errc::kCorrupt, "\"distortion\" is not four numbers (five with a pinhole's k3)");
   }
+  for (std::size_t i = 0; i < 4; ++i) camera.distortion[i] = (*field)[i].get<double>();
+  if (field->size() == 5) camera.k3 = (*field)[4].get<double>();
   return {};
 }
 
@@ -72,21 +75,6 @@ Result<CameraSet> parse_own_form(const json::Json& cameras) {
   return set;
 }
 
-/// A name for each camera that is its own and has no folders in it.
-void name_cameras(std::vector<PosedCamera>& cameras) {
-  std::set<std::string> taken;
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    std::string name = cameras[i].name.empty() ? cameras[i].image.stem().string() : cameras[i].name;
-    for (char& letter : name) {
-      if (letter == '/' || letter == '\0') letter = '_';
-    }
-    if (name.empty() || name.starts_with('.') || name.size() > 100) name = "view";
-    if (taken.contains(name)) name += "_" + std::to_string(i);
-    while (!taken.insert(name).second) name += "_";
-    cameras[i].name = std::move(name);
-  }
-}
-
 Status check_cameras(const std::vector<PosedCamera>& cameras) {
   for (const PosedCamera& posed : cameras) {
     geometry::CameraModel camera = posed.camera;
@@ -113,6 +101,20 @@ Status take_size_from_image(const std::filesystem::path& set_file, PosedCamera& 
 }
 
 }  // namespace
+
+void name_cameras(std::vector<PosedCamera>& cameras) {
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    std::string name = cameras[i].name.empty() ? cameras[i].image.stem().string() : cameras[i].name;
+    for (char& letter : name) {
+      if (letter == '/' || letter == '\0') letter = '_';
+    }
+    if (name.empty() || name.starts_with('.') || name.size() > 100) name = "view";
+    if (taken.contains(name)) name += "_" + std::to_string(i);
+    while (!taken.insert(name).second) name += "_";
+    cameras[i].name = std::move(name);
+  }
+}
 
 Result<PoseRows> pose_rows(const json::Json& object, std::string_view key) {
   const json::Json* field = json::find(object, key);

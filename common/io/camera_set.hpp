@@ -31,14 +31,15 @@ struct CameraSet {
 ///
 /// * {"cameras": [{"name": "front", "width": 640, "height": 480, "fx": 500, "fy": 500, "cx": 319.5, "cy":
 /// 239.5,
-///   "model": "pinhole" or "fisheye", "distortion": [k1, k2, p1, p2], "image": "front.jpg",
+///   "model": "pinhole" or "fisheye", "distortion": [k1, k2, p1, p2] or [k1, k2, p1, p2, k3] (fisheye: [k1,
+///   k2, k3, k4]), "image": "front.jpg",
 ///   "map_from_camera": 3 or 4 rows of 4}]}: the axes and pixel centres of geometry::CameraModel; name,
 ///   model, distortion and image may be absent.
 /// * {"frames": [{"file_path": ..., "transform_matrix": ...}]}: nerfstudio's transforms.json. Its cameras
 /// look
 ///   along -z with y up and have pixel centres at 0.5: both are converted. A frame may name a
-///   depth_file_path. Intrinsics (fl_x, fl_y, cx, cy, w, h, k1, k2, p1, p2, camera_model, or camera_angle_x)
-///   of a frame go before those of the file.
+///   depth_file_path. Intrinsics (fl_x, fl_y, cx, cy, w, h, k1, k2, k3, p1, p2, camera_model, or
+///   camera_angle_x) of a frame go before those of the file.
 ///
 /// kCorrupt names the camera and what is wrong with it. A size that the file does not state is left at 0.
 [[nodiscard]] Result<CameraSet> parse_camera_set(std::string_view text);

@@ -55,9 +55,9 @@ Status read_distortion(const Intrinsics& in, CameraModel& camera) {
     camera.distortion[3] = k4;
     return {};
   }
-  if (k3 != 0.0 || k4 != 0.0) {
-    return fail(Errc::kCorrupt, "distortion k3 and k4 are not supported: undistort the images first");
-  }
+  if (k4 != 0.0)
+    return fail(Errc::kCorrupt, "distortion k4 of a pinhole is not supported: undistort the images first");
+  camera.k3 = k3;
   EDGESPLAT_TRY(camera.distortion[2], in.number_or("p1", 0.0));
   EDGESPLAT_TRY(camera.distortion[3], in.number_or("p2", 0.0));
   return {};
@@ -68,7 +68,8 @@ Result<CameraModel> read_camera(const Intrinsics& in) {
   EDGESPLAT_TRY(const auto model, in.text("camera_model"));
   if (model == "OPENCV_FISHEYE") {
     camera.kind = CameraKind::kFisheye;
-  } else if (model && *model != "OPENCV" && *model != "PINHOLE" && *model != "SIMPLE_PINHOLE") {
+  } else if (model && *model != "OPENCV" && *model != "PINHOLE" && *model != "SIMPLE_PINHOLE" &&
+             *model != "SIMPLE_RADIAL" && *model != "RADIAL") {
     return fail(Errc::kCorrupt, "camera_model " + model->substr(0, 40) + " is not supported");
   }
   EDGESPLAT_TRY(camera.width_px, in.size("w"));

@@ -11,7 +11,7 @@ namespace edgesplat::image {
 namespace {
 
 bool is_straight(const geometry::CameraModel& camera) {
-  return camera.kind == geometry::CameraKind::kPinhole && camera.distortion == decltype(camera.distortion){};
+  return camera.kind == geometry::CameraKind::kPinhole && !camera.has_distortion();
 }
 
 std::size_t pixels_of(const geometry::CameraModel& camera) {
@@ -52,6 +52,7 @@ geometry::CameraModel undistorted_model(const geometry::CameraModel& camera) {
   geometry::CameraModel pinhole = camera;
   pinhole.kind = geometry::CameraKind::kPinhole;
   pinhole.distortion = {};
+  pinhole.k3 = 0.0;
   return pinhole;
 }
 

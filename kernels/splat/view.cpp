@@ -8,7 +8,7 @@ Result<View> View::from(const geometry::CameraModel& camera,
                         const geometry::RigidTransform& camera_from_map) {
   if (const Status valid = camera.validate(); !valid)
     return fail(Errc::kInvalidArgument, valid.error().context);
-  if (camera.distortion != decltype(camera.distortion){})
+  if (camera.has_distortion())
     return fail(Errc::kInvalidArgument, "the renderer draws pictures without distortion: undistort first");
   if (!camera_from_map.is_finite()) return fail(Errc::kInvalidArgument, "the camera's pose is not finite");
   View view;

@@ -19,12 +19,21 @@ using test::IsNear;
 CameraModel pinhole(std::array<double, 4> distortion = {}) {
   return {CameraKind::kPinhole, 640, 512, 420.0, 425.0, 321.3, 254.8, distortion};
 }
+CameraModel pinhole_k3(std::array<double, 4> distortion, double k3) {
+  CameraModel camera = pinhole(distortion);
+  camera.k3 = k3;
+  return camera;
+}
 CameraModel fisheye(std::array<double, 4> distortion = {}) {
   return {CameraKind::kFisheye, 800, 800, 220.0, 221.0, 399.5, 400.5, distortion};
 }
 
 std::vector<CameraModel> sample_cameras() {
-  return {pinhole(), pinhole({-0.28, 0.07, 0.0002, -0.0004}), pinhole({0.1, 0.02, -0.001, 0.001}), fisheye(),
+  return {pinhole(),
+          pinhole({-0.28, 0.07, 0.0002, -0.0004}),
+          pinhole({0.1, 0.02, -0.001, 0.001}),
+          pinhole_k3({-0.30, 0.11, 0.0003, -0.0002}, -0.019),
+          fisheye(),
           fisheye({0.02, -0.004, 0.0003, 0.0})};
 }
 
@@ -42,6 +51,18 @@ TEST(CameraModel, DistortionFollowsOpenCv) {
   const auto pixel = pinhole({-0.3, 0.1, 0.01, 0.02}).project({0.2, -0.1, 1.0});
   ASSERT_TRUE(pixel);
   EXPECT_THAT(*pixel, IsNear(Eigen::Vector2d(420.0 * x + 321.3, 425.0 * y + 254.8), 1e-10));
+}
+
+TEST(CameraModel, ThirdRadialTermFollowsOpenCv) {
+  // The same point; k3 r^6 = 40 * 0.000125 more of x and y.
+  const auto without = pinhole({-0.3, 0.1, 0.01, 0.02}).project({0.2, -0.1, 1.0});
+  const auto with = pinhole_k3({-0.3, 0.1, 0.01, 0.02}, 40.0).project({0.2, -0.1, 1.0});
+  ASSERT_TRUE(without && with);
+  EXPECT_THAT(Eigen::Vector2d(*with - *without),
+              IsNear(Eigen::Vector2d(420.0 * 0.2 * 0.005, 425.0 * -0.1 * 0.005), 1e-10));
+  EXPECT_TRUE(pinhole_k3({}, 0.1).has_distortion());
+  EXPECT_TRUE(pinhole({0.0, 0.0, 0.0, 0.1}).has_distortion());
+  EXPECT_FALSE(pinhole().has_distortion());
 }
 
 TEST(CameraModel, UnprojectUndoesProjectEverywhereInThePicture) {
@@ -94,6 +115,33 @@ TEST(CameraModel, RejectsWhatLiesBeyondTheFold) {
   EXPECT_TRUE(wavy.project({1.0, 0.0, 1.0}));
   EXPECT_FALSE(wavy.project({1.5, 0.0, 1.0}));
   EXPECT_FALSE(wavy.project({3.0, 0.0, 1.0}));
+  // With k3: 1 + 7 k3 s^3 alone is zero at s = 1; and where k3 makes a polynomial grow that folded without
+  // it.
+  EXPECT_TRUE(pinhole_k3({}, -1.0 / 7.0).project({0.99, 0.0, 1.0}));
+  EXPECT_FALSE(pinhole_k3({}, -1.0 / 7.0).project({1.01, 0.0, 1.0}));
+  EXPECT_TRUE(pinhole_k3({-0.4, 0.05, 0.0, 0.0}, 0.1).project({1.5, 0.0, 1.0}));
+}
+
+/// Against the slope itself at a thousand places from the centre to the point.
+TEST(CameraModel, FoldIsFoundWhereTheSlopeIsNoLongerPositive) {
+  test::Random random(11);
+  int folded = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double k1 = random.uniform(-1.0, 1.0), k2 = random.uniform(-1.0, 1.0);
+    const double k3 = i % 3 == 0 ? 0.0 : random.uniform(-1.0, 1.0);
+    const double r = random.uniform(0.1, 2.0);
+    double least = 1.0;
+    for (int step = 0; step <= 1000; ++step) {
+      const double at = r * step / 1000.0, s = at * at;
+      least = std::min(least, 1.0 + s * (3.0 * k1 + s * (5.0 * k2 + s * 7.0 * k3)));
+    }
+    if (std::abs(least) < 1e-3) continue;  // a thousand places do not tell
+    EXPECT_EQ(pinhole_k3({k1, k2, 0.0, 0.0}, k3).project({r, 0.0, 1.0}).has_value(), least > 0.0)
+        << k1 << " " << k2 << " " << k3 << " " << r;
+    folded += least <= 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(folded, 300);
+  EXPECT_LT(folded, 1700);
 }
 
 TEST(CameraModel, FisheyeRejectsWhatLiesBeyondTheFold) {
@@ -143,6 +191,7 @@ TEST(CameraModel, ValidateNamesWhatIsWrong) {
   bad.distortion[3] = std::numeric_limits<double>::quiet_NaN();
   ASSERT_FALSE(bad.validate());
   EXPECT_EQ(bad.validate().error().code, Errc::kInvalidConfig);
+  EXPECT_FALSE(pinhole_k3({}, std::numeric_limits<double>::infinity()).validate());
 }
 
 }  // namespace

@@ -72,6 +72,20 @@ TEST(CameraSet, ReadsNerfstudiosForm) {
   }
 }
 
+TEST(CameraSet, ReadsAThirdRadialTerm) {
+  std::string text(kNerf);
+  text.replace(text.find("\"p2\""), 4, "\"k3\"");
+  const auto nerf = parse_camera_set(text);
+  ASSERT_TRUE(nerf) << nerf.error().context;
+  EXPECT_EQ(nerf->cameras[0].camera.k3, 0.3);
+  EXPECT_THAT(nerf->cameras[0].camera.distortion, ElementsAre(0.1, 0.0, 0.0, 0.0));
+  text = kOwn;
+  text.replace(text.find("0.02]"), 5, "0.02, 0.5]");
+  const auto own = parse_camera_set(text);
+  ASSERT_TRUE(own) << own.error().context;
+  EXPECT_EQ(own->cameras[0].camera.k3, 0.5);
+}
+
 TEST(CameraSet, TakesSizesFromImagesAndFocalLengthsFromAngles) {
   const test::TempDir folder;
   std::filesystem::create_directories(folder / "train");
@@ -102,7 +116,9 @@ TEST(CameraSet, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(own, "[0, 0, 1, 1]", "[0, 0, -1, 1]"), HasSubstr("no rotation"));  // a mirror
   EXPECT_THAT(refusal(own, "[0, 0, 1, 1]", "[0, 0, 2, 1]"), HasSubstr("no rotation"));
   EXPECT_THAT(refusal(own, "[0.1, -0.2, 0.01, 0.02]", "[0.1]"), HasSubstr("distortion"));
-  EXPECT_THAT(refusal(nerf, "\"k1\"", "\"k3\""), HasSubstr("undistort the images first"));
+  EXPECT_THAT(refusal(own, "[0.1, -0.2, 0.01, 0.02]", "[0.1, 0, 0, 0, 0, 0]"), HasSubstr("distortion"));
+  EXPECT_THAT(refusal(own, "[0.1, -0.2, 0.01, 0.02]", "[0.1, 0, 0, 0, \"0\"]"), HasSubstr("distortion"));
+  EXPECT_THAT(refusal(nerf, "\"k1\"", "\"k4\""), HasSubstr("undistort the images first"));
   EXPECT_THAT(refusal(nerf, "\"fl_x\": 100, ", ""), HasSubstr("no focal length"));
   EXPECT_THAT(refusal(nerf, "\"fl_x\": 100", "\"camera_model\": \"EQUIRECTANGULAR\""),
               HasSubstr("EQUIRECTANGULAR"));

@@ -29,8 +29,7 @@ sensor::ImageRgb8 picture_of_directions(const geometry::CameraModel& camera) {
   return image;
 }
 
-TEST(Undistort, ShowsTheSceneAsThePinholeCameraSeesIt) {
-  const auto camera = distorted_camera();
+void expect_pinholes_picture(const geometry::CameraModel& camera) {
   const auto got = Undistorter(camera).apply(picture_of_directions(camera));
   const auto want = picture_of_directions(undistorted_model(camera));
   int compared = 0;
@@ -41,6 +40,16 @@ TEST(Undistort, ShowsTheSceneAsThePinholeCameraSeesIt) {
     }
   }
   EXPECT_GT(compared, 1000);
+}
+
+TEST(Undistort, ShowsTheSceneAsThePinholeCameraSeesIt) {
+  auto camera = distorted_camera();
+  expect_pinholes_picture(camera);
+  camera.k3 = -0.04;
+  EXPECT_FALSE(undistorted_model(camera).has_distortion());
+  expect_pinholes_picture(camera);
+  camera.distortion = {};
+  expect_pinholes_picture(camera);
 }
 
 TEST(Undistort, LeavesAnUndistortedPictureAlone) {
