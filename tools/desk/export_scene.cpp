@@ -158,6 +158,7 @@ class SceneWriter {
                            {fisheye ? "k4" : "p2", c.distortion[3]},
                            {"ply_file_path", "points.ply"},
                            {"frames", frames_}};
+    if (!fisheye) file["k3"] = c.k3;
     EDGESPLAT_TRY_STATUS(io::write_file_atomically(options_.folder / "transforms.json", file.dump(1) + "\n"));
     return SceneExportReport{frames_.size(), points_.points_m.size()};
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/io/gaussian_file.hpp"
 #include "tools/desk/render_set.hpp"
+#include "tools/desk/scene_files.hpp"
 #include "tools/desk/verbs.hpp"
 
 #include <CLI/CLI.hpp>
@@ -29,7 +30,8 @@ double median(std::vector<double> values) {
 
 Status run_render(const RenderOptions& options) {
   EDGESPLAT_TRY(const auto map, io::read_gaussians(options.map));
-  EDGESPLAT_TRY(const auto cameras, io::read_camera_set(options.cameras));
+  EDGESPLAT_TRY(const SceneFiles scene, find_scene_files(options.cameras, {}));
+  const io::CameraSet& cameras = scene.cameras;
   const SteadyClock clock;
   EDGESPLAT_TRY(const auto files, render_set(map, cameras, options.out, options.settings, clock));
   nlohmann::json pictures = nlohmann::json::array();
@@ -64,9 +66,10 @@ void add_render_verb(CLI::App& app, VerbContext& context) {
   auto* verb = app.add_subcommand("render", "Draw a map of Gaussians as cameras would see it");
   auto options = std::make_shared<RenderOptions>();
   verb->add_option("--map", options->map, "Map: .ply, .spz or .splat")->required();
-  verb->add_option(
-          "--cameras", options->cameras,
-          "Cameras: {\"cameras\": [...]} as tools/desk/README.md has it, or nerfstudio's transforms.json")
+  verb->add_option("--cameras", options->cameras,
+                   "Cameras: {\"cameras\": [...]} as common/io/camera_set.hpp has it, nerfstudio's "
+                   "transforms.json, or "
+                   "a scene's folder of nerfstudio's or COLMAP's")
       ->required();
   verb->add_option("--out", options->out, "Folder for <camera>.png")->required();
   verb->add_option("--scale", options->settings.scale, "Size of the pictures relative to the cameras'")

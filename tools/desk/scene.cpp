@@ -3,38 +3,55 @@
 #include "tools/desk/scene.hpp"
 
 #include "common/io/atomic_file.hpp"
-#include "common/io/camera_set.hpp"
+#include "common/io/colmap_model.hpp"
 #include "common/io/image_file.hpp"
 #include "common/thread/parallel_for.hpp"
 #include "kernels/image/undistort.hpp"
+#include "tools/desk/scene_files.hpp"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 namespace edgesplat::desk {
 namespace {
 
 constexpr std::uint64_t kMaxDepthFileBytes = std::uint64_t{256} << 20U;
+constexpr double kMaxDepthStretch = 0.05;  ///< of a depth picture's sides against its picture's
 
-/// Frames mostly share one camera: where to look is worked out once for it.
-using Undistorters = std::vector<std::pair<geometry::CameraModel, std::shared_ptr<const image::Undistorter>>>;
-
-bool same(const geometry::CameraModel& a, const geometry::CameraModel& b) {
-  return a.kind == b.kind && a.width_px == b.width_px && a.height_px == b.height_px && a.fx_px == b.fx_px &&
-         a.fy_px == b.fy_px && a.cx_px == b.cx_px && a.cy_px == b.cy_px && a.distortion == b.distortion;
-}
-
-const std::shared_ptr<const image::Undistorter>& undistorter_of(const geometry::CameraModel& camera,
-                                                                Undistorters& known) {
-  for (const auto& [model, undistorter] : known) {
-    if (same(model, camera)) return undistorter;
+/// Where to look for a camera's pixels: worked out when its first picture is read and kept until the last.
+/// Frames mostly share a few cameras, but in COLMAP's scenes each may have its own. Thread-safe.
+class CameraUse {
+ public:
+  explicit CameraUse(const geometry::CameraModel& camera) : camera_(camera) {}
+  [[nodiscard]] const geometry::CameraModel& camera() const { return camera_; }
+  void expect_one_more() { ++pictures_left_; }
+  /// To be called once for each picture.
+  std::shared_ptr<const image::Undistorter> take() {
+    const std::lock_guard lock(mutex_);
+    if (!undistorter_) undistorter_ = std::make_shared<image::Undistorter>(camera_);
+    auto taken = undistorter_;
+    if (--pictures_left_ == 0) undistorter_.reset();
+    return taken;
   }
-  known.emplace_back(camera, std::make_shared<image::Undistorter>(camera));
-  return known.back().second;
+
+ private:
+  const geometry::CameraModel camera_;
+  std::mutex mutex_;
+  std::size_t pictures_left_ = 0;
+  std::shared_ptr<const image::Undistorter> undistorter_;
+};
+
+CameraUse& use_of(const geometry::CameraModel& camera, std::deque<CameraUse>& uses) {
+  auto found = std::ranges::find(uses, camera, &CameraUse::camera);
+  CameraUse& use = found == uses.end() ? uses.emplace_back(camera) : *found;
+  use.expect_one_more();
+  return use;
 }
 
 double shrink_factor(const geometry::CameraModel& camera, const SceneOptions& options) {
@@ -70,30 +87,34 @@ struct Frame {
   std::filesystem::path file;
   std::filesystem::path depth;  ///< empty: none
   const io::PosedCamera* posed = nullptr;
-  std::shared_ptr<const image::Undistorter> undistorter;
+  CameraUse* use = nullptr;
 };
 
 /// What the depth picture of a camera with distortion has at the pixels of the pinhole `camera`: the nearest
-/// pixel's, since a mean of near and far is neither.
-Result<std::vector<float>> read_depth(const std::filesystem::path& file,
-                                      const geometry::CameraModel& distorted,
-                                      const geometry::CameraModel& camera) {
-  EDGESPLAT_TRY(const auto bytes, io::read_file(file, kMaxDepthFileBytes));
-  auto depth_mm = io::decode_gray16(bytes);
-  if (!depth_mm) return fail(Errc::kCorrupt, file.string() + ": " + depth_mm.error().context);
-  if (depth_mm->width_px != distorted.width_px || depth_mm->height_px != distorted.height_px) {
-    return fail(Errc::kCorrupt, file.string() + " does not have the size of its picture");
-  }
+/// pixel's, since a mean of near and far is neither. Scanners have smaller depth pictures than photos.
+Result<std::vector<float>> read_depth(const Frame& frame, const geometry::CameraModel& camera, float unit_m) {
+  const auto refused = [&frame](const std::string& why) {
+    return fail(Errc::kCorrupt, frame.depth.string() + ": " + why);
+  };
+  EDGESPLAT_TRY(const auto bytes, io::read_file(frame.depth, kMaxDepthFileBytes));
+  auto depth = io::decode_gray16(bytes);
+  if (!depth) return refused("depth pictures are PNGs of 16 bits: " + depth.error().context);
+  const geometry::CameraModel& full = frame.posed->camera;
+  const double of_width = static_cast<double>(depth->width_px) / full.width_px;
+  const double of_height = static_cast<double>(depth->height_px) / full.height_px;
+  if (std::abs(of_width - of_height) > kMaxDepthStretch * of_width)
+    return refused("it does not have its picture's proportions");
+  const geometry::CameraModel distorted = full.scaled_to(depth->width_px, depth->height_px);
   std::vector<float> depth_m;
   depth_m.reserve(static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px));
   for (int y = 0; y < camera.height_px; ++y) {
     for (int x = 0; x < camera.width_px; ++x) {
       const auto at = distorted.project(camera.unproject(Eigen::Vector2d(x, y)));
       const bool inside = at && distorted.contains(*at);
-      depth_m.push_back(
-          inside ? 1e-3F * static_cast<float>(*depth_mm->pixel(static_cast<int>(std::lround(at->x())),
-                                                               static_cast<int>(std::lround(at->y()))))
-                 : 0.0F);
+      depth_m.push_back(inside ? unit_m *
+                                     static_cast<float>(*depth->pixel(static_cast<int>(std::lround(at->x())),
+                                                                      static_cast<int>(std::lround(at->y()))))
+                               : 0.0F);
     }
   }
   return depth_m;
@@ -101,7 +122,8 @@ Result<std::vector<float>> read_depth(const std::filesystem::path& file,
 
 Result<ScenePicture> read_picture(const Frame& frame, const SceneOptions& options) {
   const io::PosedCamera& posed = *frame.posed;
-  const image::Undistorter& undistorter = *frame.undistorter;
+  const auto taken = frame.use->take();
+  const image::Undistorter& undistorter = *taken;
   EDGESPLAT_TRY(const auto picture, io::load_rgb8(frame.file));
   if (picture.width_px != posed.camera.width_px || picture.height_px != posed.camera.height_px) {
     return fail(Errc::kCorrupt, frame.file.string() + " is " + std::to_string(picture.width_px) + "x" +
@@ -116,7 +138,7 @@ Result<ScenePicture> read_picture(const Frame& frame, const SceneOptions& option
   out.picture = shrink(undistorter.apply(picture), out.camera.width_px, out.camera.height_px);
   out.weight = shrink_seen(undistorter, out.camera.width_px, out.camera.height_px);
   if (!frame.depth.empty()) {
-    EDGESPLAT_TRY(out.depth_m, read_depth(frame.depth, posed.camera, out.camera));
+    EDGESPLAT_TRY(out.depth_m, read_depth(frame, out.camera, static_cast<float>(options.depth_unit_m)));
   }
   return out;
 }
@@ -136,10 +158,10 @@ Status read_pictures(const std::vector<Frame>& frames, const SceneOptions& optio
 
 Result<Scene> read_scene(const std::filesystem::path& folder, const SceneOptions& options) {
   std::error_code error;
-  const auto file = std::filesystem::is_directory(folder, error) ? folder / "transforms.json" : folder;
-  EDGESPLAT_TRY(const io::CameraSet cameras, io::read_camera_set(file));
+  EDGESPLAT_TRY(const SceneFiles files, find_scene_files(folder, options.images));
+  const auto& [cameras, file] = files;
   Scene scene;
-  Undistorters undistorters;
+  std::deque<CameraUse> uses;
   std::vector<Frame> frames;
   for (const io::PosedCamera& posed : cameras.cameras) {
     const auto image = io::image_path(file, posed);
@@ -147,17 +169,20 @@ Result<Scene> read_scene(const std::filesystem::path& folder, const SceneOptions
       ++scene.images_missing;
       continue;
     }
-    auto depth = posed.depth.empty() ? posed.depth : file.parent_path() / posed.depth;
-    if (!depth.empty() && !std::filesystem::exists(depth, error)) depth.clear();
-    frames.push_back({image, std::move(depth), &posed, undistorter_of(posed.camera, undistorters)});
+    const bool has_depth = options.depth && !posed.depth.empty();
+    auto depth = has_depth ? file.parent_path() / posed.depth : std::filesystem::path();
+    if (has_depth && !std::filesystem::exists(depth, error)) depth.clear();
+    frames.push_back({image, std::move(depth), &posed, &use_of(posed.camera, uses)});
   }
   if (frames.empty()) {
-    return fail(Errc::kNotFound, "none of the " + std::to_string(cameras.cameras.size()) + " images that " +
-                                     file.string() + " names is there");
+    return fail(Errc::kNotFound, "none of the " + std::to_string(cameras.cameras.size()) +
+                                     " images that the scene " + folder.string() +
+                                     " names is there, such as " +
+                                     io::image_path(file, cameras.cameras.front()).string());
   }
   EDGESPLAT_TRY_STATUS(read_pictures(frames, options, scene));
   if (!cameras.points.empty()) {
-    EDGESPLAT_TRY(scene.points, io::read_points_ply(file.parent_path() / cameras.points));
+    EDGESPLAT_TRY(scene.points, io::read_points(file.parent_path() / cameras.points));
   }
   return scene;
 }

@@ -26,11 +26,11 @@ struct ScenePicture {
   std::vector<float> depth_m;  ///< [H,W] along z, 0: not measured; empty: the scene has none of this view
 };
 
-/// A scene to train a map on, from a folder with nerfstudio's transforms.json.
+/// A scene to train a map on, from a folder of nerfstudio's or COLMAP's (scene_files.hpp).
 struct Scene {
-  std::vector<ScenePicture> pictures;  ///< in the order of the file
-  io::PointCloud points;               ///< of the file's ply_file_path; empty where it names none
-  std::size_t images_missing = 0;      ///< frames of the file without an image: left out
+  std::vector<ScenePicture> pictures;  ///< in the order of nerfstudio's file; COLMAP's by their names
+  io::PointCloud points;               ///< ply_file_path, or points3D; empty where there is none
+  std::size_t images_missing = 0;      ///< frames of the scene without an image: left out
 };
 
 struct SceneOptions {
@@ -38,10 +38,13 @@ struct SceneOptions {
   /// `max_side_px`.
   double downscale = 0.0;
   int max_side_px = 640;
+  std::filesystem::path images;  ///< of a scene of COLMAP's; empty: where find_scene_files() finds them
+  bool depth = true;             ///< read depth pictures where the scene names some
+  double depth_unit_m = 1e-3;    ///< of their values
 };
 
-/// `folder`: with a transforms.json, or that file itself. Errors: kNotFound (no such folder, no image at
-/// all), kCorrupt with the file's name.
+/// `folder`: as find_scene_files() takes it. Errors: kNotFound (no such folder, no image at all), kCorrupt
+/// with the file's name.
 [[nodiscard]] Result<Scene> read_scene(const std::filesystem::path& folder, const SceneOptions& options);
 
 /// 1.1 times the largest distance of a camera from the cameras' centre, as 3DGS measures a scene; at least

@@ -35,11 +35,11 @@ Status take_start_points(const Pictures& pictures, Scene& scene, TrainReport& re
     report.triangulated = true;
     EDGESPLAT_TRY(scene.points, triangulate(pictures));
     if (scene.points.points_m.size() < kLeastTriangulated) {
-      return fail(
-          Errc::kInvalidArgument,
-          "the scene has no point cloud, and its pictures give only " +
-              std::to_string(scene.points.points_m.size()) +
-              " points: name one in its transforms.json (\"ply_file_path\"), in the frame of the poses");
+      return fail(Errc::kInvalidArgument, "the scene has no point cloud, and its pictures give only " +
+                                              std::to_string(scene.points.points_m.size()) +
+                                              " points: name one in its transforms.json (\"ply_file_path\") "
+                                              "or put points3D.bin, .txt or .ply "
+                                              "beside COLMAP's cameras, in the frame of the poses");
     }
   }
   report.start_points = scene.points.points_m.size();
@@ -74,7 +74,9 @@ Result<TrainReport> run_train_job(const TrainJob& job, const TrainClocks& clocks
   if (!job.curve.empty() && job.holdout == 0) {
     return fail(Errc::kInvalidConfig, "a curve needs held-out pictures: give a holdout above 0");
   }
-  EDGESPLAT_TRY(Scene scene, read_scene(job.scene, job.pictures));
+  SceneOptions pictures = job.pictures;
+  pictures.depth = job.training.depth_factor > 0.0F;  // nobody looks at it else
+  EDGESPLAT_TRY(Scene scene, read_scene(job.scene, pictures));
   const Split split = split_pictures(scene, job.holdout);
   TrainReport report;
   report.pictures = split.train.size();
@@ -91,7 +93,7 @@ Result<TrainReport> run_train_job(const TrainJob& job, const TrainClocks& clocks
   report.gaussians = trained.map.size();
   io::MapSidecar sidecar;
   sidecar.frame = "scene";
-  sidecar.axes = "those of the scene's transforms.json";
+  sidecar.axes = "those of the scene's poses";
   sidecar.sky_included = true;
   EDGESPLAT_TRY(sidecar, save_map(job.out, trained.map, sidecar));
   EDGESPLAT_TRY(const auto written, io::read_gaussians(job.out));

@@ -90,8 +90,22 @@ Status run_train(const TrainVerbOptions& options) {
   return {};
 }
 
+constexpr const char* kScenes = R"(Scenes:
+  nerfstudio: transforms.json with frames (file_path, transform_matrix) and, if there is one, the name of a
+    point cloud (ply_file_path) and depth pictures (depth_file_path: PNGs of 16 bits).
+  COLMAP: sparse/0 (or sparse, colmap/sparse/0) with cameras, images and points3D as .bin or .txt, and the
+    images in images/. Camera models: SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, FULL_OPENCV
+    (k4 = k5 = k6 = 0) and the fisheyes without thin prism. Images larger or smaller than their cameras
+    (--images DIR/images_4) are taken as they are.
+Pictures are undistorted. Training begins with the points of the scene; where it has none, they come from
+features of the pictures. Every 8th picture (in COLMAP's order of names) is held out and scored.
+
+Example: edgesplat train --scene DIR --seconds 300 --out map.ply --renders looks
+)";
+
 /// Shares of the training, 0..1, and what weighs how much.
-void add_schedule_options(CLI::App& verb, TrainingOptions& training) {
+void add_schedule_options(CLI::App& verb, TrainJob& job) {
+  TrainingOptions& training = job.training;
   mapping::ScheduleOptions& schedule = training.schedule;
   const auto add = [&verb](const char* name, auto& value, const char* words) {
     verb.add_option(name, value, words)->capture_default_str()->group("Schedule");
@@ -109,6 +123,10 @@ void add_schedule_options(CLI::App& verb, TrainingOptions& training) {
   add("--exposure", training.learn_exposure, "Learn the gain and offset of each picture");
   add("--rates", training.rate_factor, "Factor of all learning rates");
   add("--depth", training.depth_factor, "Weight of the depth loss, where the scene has depth");
+  verb.add_option("--depth-unit", job.pictures.depth_unit_m, "Of the depth pictures' values, m")
+      ->check(CLI::Range(1e-6, 10.0))
+      ->capture_default_str()
+      ->group("Schedule");
   add("--opacity-cost", training.opacity_factor, "Weight of the mean opacity");
   add("--scale-cost", training.scale_factor, "Weight of the mean scale, in shares of the scene's extent");
   add("--prune", training.prune_factor, "Weight of the mean switch (differentiable pruning); 0: no switches");
@@ -123,7 +141,10 @@ void add_train_verb(CLI::App& app, VerbContext& context) {
   TrainJob* job = &options->job;
   TrainingOptions& training = job->training;
   job->lpips_model = "../shared/models/lpips_alex";
-  verb->add_option("--scene", job->scene, "Folder with a transforms.json (nerfstudio)")->required();
+  verb->footer(kScenes);
+  verb->add_option("--scene", job->scene, "Folder of nerfstudio's or COLMAP's, see below")->required();
+  verb->add_option("--images", job->pictures.images,
+                   "Folder of a COLMAP scene's images; default: its images/");
   verb->add_option("--out", job->out, "Map to write: .ply, .spz or .splat")->required();
   verb->add_option("--iterations", training.iterations, "End after so many pictures");
   verb->add_option("--seconds", training.seconds, "End after so much training")
@@ -147,7 +168,7 @@ void add_train_verb(CLI::App& app, VerbContext& context) {
   verb->add_option("--densify", training.densify, "gradient (3DGS) or mcmc")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Densify>{{"gradient", Densify::kGradient}, {"mcmc", Densify::kMcmc}}));
-  add_schedule_options(*verb, training);
+  add_schedule_options(*verb, *job);
   verb->add_option("--lpips", job->lpips_model, "Folder of the LPIPS network; without it there is no LPIPS")
       ->envname("EDGESPLAT_LPIPS")
       ->capture_default_str();

@@ -5,6 +5,7 @@
 
 usage: peer.py VERB FILE [ARGUMENT]; prints one line an item. Exit code 77: a Python package is missing.
 """
+import os
 import sys
 
 try:
@@ -14,6 +15,7 @@ try:
     import numpy
     import PIL.Image
     import plyfile
+    import pycolmap
 except ImportError as missing:
     print(missing)
     sys.exit(77)
@@ -113,6 +115,37 @@ def image_write(path, mode):
         image = image.convert("RGB").convert("P")
     image.save(path)
     print(*numpy.asarray(image.convert("RGB")).reshape(-1))
+
+
+COLMAP_CAMERAS = {
+    "SIMPLE_PINHOLE": [500, 320, 240], "PINHOLE": [500, 510, 320, 240], "SIMPLE_RADIAL": [500, 320, 240, -0.1],
+    "RADIAL": [500, 320, 240, -0.1, 0.02], "OPENCV": [500, 510, 321, 242, -0.1, 0.02, 0.003, -0.002],
+    "OPENCV_FISHEYE": [300, 310, 320, 240, -0.02, 0.003, -0.001, 0.0002],
+    "FULL_OPENCV": [500, 510, 320, 240, -0.1, 0.02, 0.003, -0.002, -0.004, 0, 0, 0],
+    "SIMPLE_RADIAL_FISHEYE": [300, 320, 240, -0.02], "RADIAL_FISHEYE": [300, 320, 240, -0.02, 0.003],
+    "SIMPLE_FISHEYE": [300, 320, 240], "FISHEYE": [300, 310, 320, 240]}
+
+
+def colmap_write(path, form):
+    """An image with features by each camera, 20 points; prints where each image shows each point: NAME X Y Z U V."""
+    random = numpy.random.default_rng(7)
+    scene = pycolmap.Reconstruction()
+    points = random.uniform(-1, 1, (20, 3)) + [0, 0, 4]
+    for point in points:
+        scene.add_point3D(point, pycolmap.Track(), random.integers(0, 256, 3).astype(numpy.uint8))
+    for number, (model, parameters) in enumerate(COLMAP_CAMERAS.items(), 1):
+        scene.add_camera_with_trivial_rig(
+            pycolmap.Camera(camera_id=number, model=model, width=640, height=480, params=parameters))
+        turn = random.normal(0, 0.15, 4) + [0, 0, 0, 1]
+        pose = pycolmap.Rigid3d(pycolmap.Rotation3d(turn / numpy.linalg.norm(turn)), random.normal(0, 0.3, 3))
+        features = random.uniform(0, 400, (number % 3, 2))
+        image = pycolmap.Image(name=model + ".png", keypoints=features, camera_id=number, image_id=100 - number)
+        scene.add_image_with_trivial_frame(image, pose)
+    os.makedirs(path)
+    (scene.write_text if form == "text" else scene.write_binary)(path)
+    for image in scene.images.values():
+        for point in points:
+            print(image.name, *point, *image.project_point(point))
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 
 #include "common/io/atomic_file.hpp"
 #include "test/support/temp_dir.hpp"
+#include "test/tools/desk/colmap_scene.hpp"
 #include "tools/desk/train_job.hpp"
 #include "tools/simulate/simulator.hpp"
 
@@ -93,6 +94,35 @@ TEST_F(ExportScene, GivesASceneThatFitsTogetherAndTrains) {
   ASSERT_TRUE(trained) << trained.error().context;
   EXPECT_EQ(trained->start_points, report->points);
   EXPECT_GT(trained->held_out_means->psnr_db, kLeast_db);
+}
+
+/// The same cameras, points and images in COLMAP's form: the same map but for rounding of the poses.
+TEST_F(ExportScene, TrainsTheSameInColmapsForm) {
+  simulate_corridor(corridor(folder_ / "a.mcap"));
+  ASSERT_TRUE(export_scene({folder_ / "a.mcap", folder_ / "nerf", 24, 3000, 1}));
+  std::filesystem::create_directories(folder_ / "colmap");
+  std::filesystem::rename(folder_ / "nerf" / "images", folder_ / "colmap" / "images");
+  std::filesystem::create_directory_symlink(folder_ / "colmap" / "images", folder_ / "nerf" / "images");
+  colmap_of(folder_ / "nerf").write_bin(folder_, "colmap/sparse/0");
+  const SteadyClock clock;
+  TrainJob job;
+  job.out = folder_ / "map.ply";
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  job.training.iterations = 20;
+#else
+  job.training.iterations = 200;
+#endif
+  job.scene = folder_ / "nerf";
+  const auto nerf = run_train_job(job, {clock, clock}, {});
+  ASSERT_TRUE(nerf) << nerf.error().context;
+  job.scene = folder_ / "colmap";
+  const auto colmap = run_train_job(job, {clock, clock}, {});
+  ASSERT_TRUE(colmap) << colmap.error().context;
+  EXPECT_EQ(colmap->start_points, nerf->start_points);
+  EXPECT_EQ(colmap->held_out, 3U);
+  EXPECT_EQ(colmap->pictures, nerf->pictures);
+  EXPECT_FALSE(colmap->triangulated);
+  EXPECT_NEAR(colmap->held_out_means->psnr_db, nerf->held_out_means->psnr_db, 0.2);
 }
 
 TEST_F(ExportScene, IsTheSameEachTime) {

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/desk/scene.hpp"
+#include "test/tools/desk/colmap_scene.hpp"
 #include "test/tools/desk/wall_scene.hpp"
 #include "tools/desk/scene_start.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <functional>
 
 namespace edgesplat::desk {
 namespace {
@@ -18,6 +20,12 @@ std::vector<const ScenePicture*> pointers(const std::vector<ScenePicture>& pictu
   out.reserve(pictures.size());
   for (const ScenePicture& picture : pictures) out.push_back(&picture);
   return out;
+}
+
+SceneOptions with(const std::function<void(SceneOptions&)>& change) {
+  SceneOptions options;
+  change(options);
+  return options;
 }
 
 TEST(ReadScene, GivesPicturesWithPosesAndPoints) {
@@ -41,7 +49,7 @@ TEST(ReadScene, GivesPicturesWithPosesAndPoints) {
 TEST(ReadScene, ShrinksPicturesAndCameras) {
   const test::TempDir folder;
   write_wall_scene(folder, 1, 128, 96);
-  const auto half = read_scene(folder.path(), {.downscale = 2.0});
+  const auto half = read_scene(folder.path(), with([](SceneOptions& o) { o.downscale = 2.0; }));
   ASSERT_TRUE(half) << half.error().context;
   const ScenePicture small = WallScene::shoot(0, 64, 48);
   ASSERT_EQ(half->pictures[0].camera.width_px, 64);
@@ -52,7 +60,7 @@ TEST(ReadScene, ShrinksPicturesAndCameras) {
     difference += std::abs(int{half->pictures[0].picture.values[i]} - int{small.picture.values[i]});
   }
   EXPECT_LT(difference / static_cast<double>(small.picture.values.size()), 1.5);
-  const auto bounded = read_scene(folder.path(), {.max_side_px = 32});
+  const auto bounded = read_scene(folder.path(), with([](SceneOptions& o) { o.max_side_px = 32; }));
   ASSERT_TRUE(bounded);
   EXPECT_EQ(bounded->pictures[0].camera.width_px, 32);
   EXPECT_EQ(bounded->pictures[0].camera.height_px, 24);
@@ -105,7 +113,9 @@ TEST(ReadScene, ReadsDepthAndUndistortsIt) {
   const double seen_at = 29.5 + 40.0 * x * (1.0 + 0.2 * (x * x + y * y));
   EXPECT_NEAR(pillow->pictures[0].depth_m[20 * 60 + 50], 1.0 + 0.01 * std::round(seen_at), 1e-4);
   EXPECT_EQ(pillow->pictures[0].depth_m[0], 0.0F);
-  ASSERT_TRUE(io::save_image(folder / "d.png", sensor::ImageGray16(30, 20)));
+  EXPECT_TRUE(
+      read_scene(folder.path(), with([](SceneOptions& o) { o.depth = false; }))->pictures[0].depth_m.empty());
+  ASSERT_TRUE(io::save_image(folder / "d.png", sensor::ImageGray16(30, 30)));
   EXPECT_THAT(read_scene(folder.path(), {}).error().context, HasSubstr("d.png"));
   ASSERT_TRUE(io::save_image(folder / "d.png", sensor::ImageRgb8(60, 40)));
   EXPECT_THAT(read_scene(folder.path(), {}).error().context, HasSubstr("d.png"));
@@ -113,10 +123,115 @@ TEST(ReadScene, ReadsDepthAndUndistortsIt) {
   EXPECT_TRUE(read_scene(folder.path(), {}).value().pictures[0].depth_m.empty());
 }
 
+TEST(ReadScene, DepthPicturesMayBeSmallerAndHaveAnotherUnit) {
+  const test::TempDir folder;
+  ASSERT_TRUE(io::save_image(folder / "a.png", sensor::ImageRgb8(60, 40, 200)));
+  sensor::ImageGray16 depth(30, 20);
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 30; ++x) *depth.pixel(x, y) = static_cast<std::uint16_t>(5000 + 100 * x);
+  }
+  ASSERT_TRUE(io::save_image(folder / "d.png", depth));
+  folder.write("transforms.json", R"({"fl_x": 40, "w": 60, "h": 40, "frames": [
+      {"file_path": "a.png", "depth_file_path": "d.png", "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}]})");
+  const auto scene = read_scene(
+      folder.path(), with([](SceneOptions& o) { o.depth_unit_m = 2e-4; }));  // as TUM's RGB-D sequences
+  ASSERT_TRUE(scene) << scene.error().context;
+  const std::vector<float>& depth_m = scene->pictures[0].depth_m;
+  ASSERT_EQ(depth_m.size(), 60U * 40U);
+  for (const int x : {0, 1, 30, 59}) {  // pixels 2 k and 2 k + 1 lie in pixel k
+    EXPECT_NEAR(depth_m[20 * 60 + static_cast<std::size_t>(x)], 1.0 + 0.02 * (x / 2), 1e-5) << x;
+  }
+}
+
+TEST(ReadScene, ThirdRadialTermIsUndistorted) {
+  const test::TempDir folder;
+  ASSERT_TRUE(io::save_image(folder / "a.png", sensor::ImageRgb8(60, 40, 200)));
+  folder.write("transforms.json", R"({"fl_x": 40, "w": 60, "h": 40, "k3": 0.2,
+      "frames": [{"file_path": "a.png", "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}]})");
+  const auto scene = read_scene(folder.path(), {});
+  ASSERT_TRUE(scene) << scene.error().context;
+  EXPECT_FALSE(scene->pictures[0].camera.has_distortion());
+  ASSERT_EQ(scene->pictures[0].weight.size(), 60U * 40U);
+  EXPECT_EQ(scene->pictures[0].weight[0], 0.0F) << "a pincushion's corner was not seen";
+}
+
+void expect_same(const Scene& a, const Scene& b) {
+  EXPECT_EQ(a.images_missing, b.images_missing);
+  EXPECT_EQ(a.points.points_m, b.points.points_m);
+  EXPECT_EQ(a.points.rgb, b.points.rgb);
+  ASSERT_EQ(a.pictures.size(), b.pictures.size());
+  for (std::size_t i = 0; i < a.pictures.size(); ++i) {
+    EXPECT_EQ(a.pictures[i].name, b.pictures[i].name);
+    EXPECT_EQ(a.pictures[i].picture.values, b.pictures[i].picture.values);
+    EXPECT_EQ(a.pictures[i].camera, b.pictures[i].camera);
+    EXPECT_TRUE(
+        a.pictures[i].map_from_camera.matrix().isApprox(b.pictures[i].map_from_camera.matrix(), 1e-9));
+  }
+}
+
+TEST(ReadScene, ColmapsFormsGiveTheSameAsNerfstudios) {
+  const test::TempDir folder;
+  write_wall_scene(folder, 5, 64, 48);
+  std::filesystem::remove(folder / "images" / "view3.png");
+  const auto nerf = read_scene(folder.path(), {});
+  ASSERT_TRUE(nerf) << nerf.error().context;
+  io::ColmapSample sample = colmap_of(folder.path());
+  std::filesystem::remove(folder / "transforms.json");
+  EXPECT_EQ(read_scene(folder.path(), {}).error().code, Errc::kNotFound);
+  sample.write_txt(folder, "colmap/sparse/0");
+  for (const char* scene : {"", "colmap/sparse/0/"}) {  // there the images lie two folders up and one more
+    const auto text =
+        read_scene(folder / scene, with([&](SceneOptions& o) { o.images = folder / "images"; }));
+    ASSERT_TRUE(text) << text.error().context;
+    expect_same(*nerf, *text);
+  }
+  sample.points = {{{1, 2, 3}, {4, 5, 6}}, {{7, 8, 9}, {10, 11, 12}}};
+  sample.write_bin(folder, "sparse/0");
+  for (const char* scene : {"", "sparse/0", "sparse/0/"}) {
+    const auto binary = read_scene(folder / scene, {});
+    ASSERT_TRUE(binary) << binary.error().context;
+    Scene expected = *nerf;
+    expected.points = sample.points;
+    expect_same(expected, *binary);
+  }
+  std::filesystem::remove(folder / "sparse/0/points3D.bin");  // as 3DGS leaves it beside or instead
+  ASSERT_TRUE(io::write_points_ply(folder / "sparse/0/points3D.ply", {{{5, 6, 7}}, {{1, 1, 1}}}));
+  EXPECT_EQ(read_scene(folder.path(), {})->points.points_m[0], Eigen::Vector3f(5, 6, 7));
+}
+
+TEST(ReadScene, ColmapImagesOfHalfTheSizeAreTakenAsTheyAre) {
+  const test::TempDir folder;
+  write_wall_scene(folder, 3, 64, 48);
+  colmap_of(folder.path()).write_bin(folder, "sparse/0");
+  std::filesystem::remove(folder / "transforms.json");
+  std::filesystem::create_directories(folder / "images_2");
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(io::save_image(folder / ("images_2/view" + std::to_string(i) + ".png"),
+                               WallScene::shoot(i, 32, 24).picture));
+  }
+  const auto scene =
+      read_scene(folder.path(), with([&](SceneOptions& o) { o.images = folder / "images_2"; }));
+  ASSERT_TRUE(scene) << scene.error().context;
+  EXPECT_EQ(scene->pictures[1].picture.values, WallScene::shoot(1, 32, 24).picture.values);
+  EXPECT_NEAR(scene->pictures[1].camera.fx_px, WallScene::camera(32, 24).fx_px, 1e-9);
+  EXPECT_NEAR(scene->pictures[1].camera.cx_px, WallScene::camera(32, 24).cx_px, 1e-9);
+  ASSERT_TRUE(io::save_image(folder / "images_2/view1.png", sensor::ImageRgb8(30, 30)));
+  EXPECT_THAT(read_scene(folder.path(), with([&](SceneOptions& o) { o.images = folder / "images_2"; }))
+                  .error()
+                  .context,
+              HasSubstr("view1.png is 30x30, its camera 64x48"));
+  EXPECT_THAT(read_scene(folder.path(), with([&](SceneOptions& o) { o.images = folder / "images_8"; }))
+                  .error()
+                  .context,
+              HasSubstr("images_8/view0.png"));
+}
+
 TEST(ReadScene, SaysWhatIsWrong) {
   const test::TempDir folder;
   EXPECT_EQ(read_scene(folder / "nowhere", {}).error().code, Errc::kNotFound);
   EXPECT_EQ(read_scene(folder.path(), {}).error().code, Errc::kNotFound);
+  EXPECT_THAT(read_scene(folder.path(), {}).error().context,
+              AllOf(HasSubstr("transforms.json"), HasSubstr("sparse/0")));
   write_wall_scene(folder, 2, 32, 24);
   ASSERT_TRUE(io::save_image(folder / "images" / "view0.png", sensor::ImageRgb8(10, 10)));
   EXPECT_THAT(read_scene(folder.path(), {}).error().context,
