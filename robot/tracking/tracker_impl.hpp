@@ -68,8 +68,9 @@ struct Tracker::Impl {
   /// The picture's update, at the moment of the LiDAR's.
   VisualUpdateResult see(const sync::MeasureGroup& group, const ScanUpdateResult& scan);
   void extend_map(const ScanUpdateResult& update);
-  void insert_points(std::span<const Eigen::Vector3f> points_in_body_m, std::span<const std::uint32_t> kept,
-                     const geometry::RigidTransform& pose, const Matrix6d& pose_covariance);
+  void insert_points(std::span<const Eigen::Vector3f> points_in_body_m, std::span<const std::uint8_t> units,
+                     std::span<const std::uint32_t> kept, const geometry::RigidTransform& pose,
+                     const Matrix6d& pose_covariance);
   [[nodiscard]] TrackedGroup report(const sync::MeasureGroup& group, const ScanUpdateResult& scan,
                                     const VisualUpdateResult& picture) const;
 
