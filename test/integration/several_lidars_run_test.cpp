@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -98,6 +100,11 @@ class TwoLidarsRun : public testing::TestWithParam<const char*> {
     const auto summary = nlohmann::json::parse(accuracy.out);
     return summary["ate_rmse_m"].is_number() ? summary["ate_rmse_m"].get<double>() : 1e9;
   }
+  /// How long a LiDAR was silent, by the line that says that its data are back.
+  [[nodiscard]] double silence_s(const std::string& words) const {
+    const std::size_t at = log_.find(words);
+    return at == std::string::npos ? 1e9 : std::strtod(log_.c_str() + at + words.size(), nullptr);
+  }
   [[nodiscard]] std::uint64_t counter(const std::string& name) const {
     EXPECT_TRUE(counters_.contains(name)) << name;
     return counters_.value(name, std::uint64_t{0});
@@ -154,6 +161,9 @@ TEST_P(TwoLidarsRun, ThePulledOneIsMissedByNobodyAndComesBack) {
   EXPECT_EQ(count_of("LiDAR 1: points", log_), 1U) << log_;
   EXPECT_EQ(count_of("LiDAR data are back", log_), 1U);
   if (!kMustKeepUp) return;
+  const double silent_s = silence_s("LiDAR 1: after ");
+  std::printf("the second was pulled for 2 s and silent for %.2f s\n", silent_s);
+  EXPECT_LT(silent_s, 2.0 + 3.0);
   const double live_m = ate_m("run");
   std::printf("live, the second pulled for 2 s: ATE %.1f mm\n", 1e3 * live_m);
   EXPECT_LT(live_m, 0.02);
