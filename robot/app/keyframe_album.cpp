@@ -8,6 +8,7 @@
 #include "robot/render/draw_points.hpp"
 #include "robot/render/view.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -74,9 +75,24 @@ Status write_overlay_and_render(const map::Keyframe& keyframe, const geometry::C
   return io::save_image(folder / "renders" / (number + ".png"), view.picture);
 }
 
+/// Writes `stem`_patches.csv, the places being those in the undistorted picture; none where there are none.
+Status write_patches(const std::vector<tracking::TrackedPatch>& patches, const geometry::CameraModel& camera,
+                     const geometry::CameraModel& pinhole, const std::filesystem::path& stem) {
+  if (patches.empty()) return {};
+  std::string csv = "x_px,y_px,side_px,misfit,used\n";
+  for (const tracking::TrackedPatch& patch : patches) {
+    const auto pixel = pinhole.project(camera.unproject(patch.pixel.cast<double>()));
+    if (!pixel || !pinhole.contains(*pixel)) continue;
+    csv += fmt::format("{:.1f},{:.1f},{:.0f},{:.2f},{}\n", pixel->x(), pixel->y(), patch.side_px,
+                       patch.misfit, patch.used ? 1 : 0);
+  }
+  return io::write_file_atomically(stem.string() + "_patches.csv", csv);
+}
+
 }  // namespace
 
-void KeyframeAlbum::add(std::shared_ptr<const map::Keyframe> keyframe) {
+void KeyframeAlbum::add(std::shared_ptr<const map::Keyframe> keyframe,
+                        std::vector<tracking::TrackedPatch> patches) {
   if (!keyframe->image || !keyframe->camera) return;
   auto without_points = std::make_shared<map::Keyframe>();
   without_points->id = keyframe->id;
@@ -85,7 +101,7 @@ void KeyframeAlbum::add(std::shared_ptr<const map::Keyframe> keyframe) {
   without_points->camera = keyframe->camera;
   without_points->image = keyframe->image;
   pictures_.add(std::move(without_points));
-  whole_.add(std::move(keyframe));
+  whole_.add({std::move(keyframe), std::move(patches)});
 }
 
 void KeyframeAlbum::add_held_out(std::shared_ptr<const map::Keyframe> held_out, int block) {
@@ -110,7 +126,9 @@ Status KeyframeAlbum::write(const std::filesystem::path& folder, const gaussian:
     EDGESPLAT_TRY_STATUS(
         write_picture(*picture, undistorter, folder / "heldout" / number_name(i), map_from_odom, block));
   }
-  for (const auto& keyframe : whole_.kept()) {
+  for (const auto& [keyframe, patches] : whole_.kept()) {
+    EDGESPLAT_TRY_STATUS(write_patches(patches, keyframe->camera->model, undistorter.model(),
+                                       folder / "keyframes" / number_name(keyframe->id.value)));
     EDGESPLAT_TRY_STATUS(
         write_overlay_and_render(*keyframe, undistorter.model(), folder, cloud, map_from_odom));
   }

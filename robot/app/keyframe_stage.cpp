@@ -82,7 +82,7 @@ void KeyframeStage::operator()(const TrackedFrame& frame) {
     made_.add();
     points_.add((*made)->points_in_body.size());
     coloured_map_.add(**made);
-    album_.add(*made);
+    album_.add(*made, frame.group.patches);
     sink_(*made);
   }
   const double keyframe_ms = to_seconds(work_clock_.now() - start) * 1e3;

@@ -27,7 +27,9 @@ class LiveMap {
   void on_picture(double render_ms);
   /// What is drawn, in `map`; never null.
   [[nodiscard]] std::shared_ptr<const gaussian::GaussianCloud> snapshot() const { return drawn_.snapshot(); }
-  /// The same with everything that was applied and mapped, whatever the publishing pace; waits for the
+  /// The same with the correction that it was put together with.
+  [[nodiscard]] local_mapping::DrawnMap::Placed placed() const { return drawn_.placed(); }
+  /// snapshot() with everything that was applied and mapped, whatever the publishing pace; waits for the
   /// robot's own mapping.
   [[nodiscard]] std::shared_ptr<const gaussian::GaussianCloud> newest_snapshot();
   [[nodiscard]] geometry::RigidTransform map_from_odom() const;

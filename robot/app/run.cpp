@@ -7,6 +7,7 @@
 #include "common/sensor/rig_config.hpp"
 #include "robot/app/live_input.hpp"
 #include "robot/app/live_map.hpp"
+#include "robot/app/map_look.hpp"
 #include "robot/app/picture_log.hpp"
 #include "robot/app/pipeline.hpp"
 #include "robot/app/pose_log.hpp"
@@ -196,6 +197,7 @@ Status run_robot(const Options& o, const std::stop_token& stop) {
   PoseLog poses(folder ? folder->robot_folder() / "imu_rate.tum" : std::filesystem::path());
   const auto sink = [&](std::shared_ptr<const map::Keyframe> keyframe) { map->submit(std::move(keyframe)); };
   EDGESPLAT_TRY(const auto chain, SensingChain::create(config, rig, sink, clock, metrics));
+  if (config.tracking.gaussian_every > 0) chain->look_at(std::make_shared<MapLook>(*map, clock, metrics));
   // In a replay arrivals are the recording's, on another clock.
   metrics::Histogram* const latency_ms = recording ? nullptr : &metrics.histogram("pose_stream.latency_ms");
   chain->stream_poses_to([&](const tracking::StreamedPose& pose, HostTime arrival) {

@@ -161,6 +161,8 @@ void SensingChain::publish_counters(metrics::Registry& metrics) const {
       {"tracking.evicted_cells", t.evicted_cells},
       {"tracking.unused_pictures", t.unused_pictures},
       {"tracking.visual_updates", t.visual_updates},
+      {"tracking.gaussian_looks", t.gaussian_looks},
+      {"tracking.gaussian_updates", t.gaussian_updates},
   };
   for (const auto& [name, value] : tracked) metrics.counter(name).add(static_cast<std::uint64_t>(value));
   metrics.gauge("tracking.map_bytes").set(static_cast<double>(t.map_bytes));

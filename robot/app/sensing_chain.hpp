@@ -38,6 +38,9 @@ class SensingChain {
   using PoseSink = std::function<void(const tracking::StreamedPose&, HostTime arrival)>;
   void stream_poses_to(PoseSink sink) { pose_sink_ = std::move(sink); }
 
+  /// As of Tracker: the Gaussian map that poses are held against where the configuration asks for it.
+  void look_at(std::shared_ptr<tracking::GaussianView> map) { tracker_->look_at(std::move(map)); }
+
   [[nodiscard]] std::vector<ReadyGroup> sync(sensor::Measurement measurement);
   [[nodiscard]] std::vector<ReadyGroup> flush();
   /// Nothing for a group that tracking refused (counted and logged).

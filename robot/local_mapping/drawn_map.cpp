@@ -56,7 +56,7 @@ DrawnMap::DrawnMap()
     : resident_in_map_(std::make_shared<const Cloud>()),
       provisional_in_odom_(resident_in_map_),
       provisional_in_map_(resident_in_map_),
-      drawn_(resident_in_map_) {}
+      drawn_{resident_in_map_, {}} {}
 
 void DrawnMap::set_resident(std::shared_ptr<const Cloud> in_map, const map::MapFromOdom& map_from_odom) {
   const std::lock_guard lock(parts_mutex_);
@@ -87,10 +87,14 @@ void DrawnMap::merge() {
     all = std::move(both);
   }
   const std::lock_guard lock(drawn_mutex_);
-  drawn_ = std::move(all);
+  drawn_ = {std::move(all), map_from_odom_.map_from_odom};
 }
 
 std::shared_ptr<const Cloud> DrawnMap::snapshot() const {
+  return placed().in_map;
+}
+
+DrawnMap::Placed DrawnMap::placed() const {
   const std::lock_guard lock(drawn_mutex_);
   return drawn_;
 }

@@ -29,6 +29,12 @@ class DrawnMap {
 
   /// In `map`; never null.
   [[nodiscard]] std::shared_ptr<const gaussian::GaussianCloud> snapshot() const;
+  /// The same with the correction that it was put together with.
+  struct Placed {
+    std::shared_ptr<const gaussian::GaussianCloud> in_map;
+    geometry::RigidTransform map_from_odom;
+  };
+  [[nodiscard]] Placed placed() const;
 
  private:
   void merge();
@@ -40,7 +46,7 @@ class DrawnMap {
   std::shared_ptr<const gaussian::GaussianCloud> provisional_in_map_;  ///< moved by map_from_odom_
 
   mutable std::mutex drawn_mutex_;
-  std::shared_ptr<const gaussian::GaussianCloud> drawn_;
+  Placed drawn_;
 };
 
 }  // namespace edgesplat::local_mapping

@@ -19,16 +19,16 @@ Result<View> view_of(const geometry::CameraModel& camera, const geometry::RigidT
                      const Draw& draw) {
   EDGESPLAT_TRY(const splat::View view, splat::View::from(camera, camera_from_map));
   sensor::ImageRgbF32 colour(camera.width_px, camera.height_px);
-  sensor::ImageF32 alpha(camera.width_px, camera.height_px);
   View out;
+  out.alpha = sensor::ImageF32(camera.width_px, camera.height_px);
   out.depth_m = sensor::ImageF32(camera.width_px, camera.height_px);
   EDGESPLAT_TRY(const splat::RenderStats stats,
-                draw(view, splat::BlendOutputs{colour.values, out.depth_m.values, alpha.values}));
+                draw(view, splat::BlendOutputs{colour.values, out.depth_m.values, out.alpha.values}));
   (void)stats;
   out.picture = sensor::to_rgb8(colour.values, camera.width_px, camera.height_px);
-  for (std::size_t i = 0; i < alpha.values.size(); ++i) {
-    out.depth_m.values[i] =
-        alpha.values[i] > kLeastAlphaForDepth ? out.depth_m.values[i] / alpha.values[i] : 0.0F;
+  for (std::size_t i = 0; i < out.alpha.values.size(); ++i) {
+    const float alpha = out.alpha.values[i];
+    out.depth_m.values[i] = alpha > kLeastAlphaForDepth ? out.depth_m.values[i] / alpha : 0.0F;
   }
   return out;
 }

@@ -17,6 +17,7 @@ namespace edgesplat::render {
 struct View {
   sensor::ImageRgb8 picture;  ///< black where no Gaussian is
   sensor::ImageF32 depth_m;   ///< expected z in the camera frame, 0 where nothing is
+  sensor::ImageF32 alpha;     ///< how much of a pixel the Gaussians fill, 0..1
 };
 
 /// Draws the Gaussians as the undistorted camera sees them, on the CPU. An empty cloud gives a black picture.

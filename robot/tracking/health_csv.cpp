@@ -24,18 +24,38 @@ std::string_view name_of(TrackingState state) {
   return "unknown";
 }
 
+std::string_view name_of(GaussianVerdict verdict) {
+  switch (verdict) {
+    case GaussianVerdict::kNotLooked:
+      return "not_looked";
+    case GaussianVerdict::kNoMap:
+      return "no_map";
+    case GaussianVerdict::kNoPicture:
+      return "no_picture";
+    case GaussianVerdict::kUnlike:
+      return "unlike";
+    case GaussianVerdict::kContradicts:
+      return "contradicts";
+    case GaussianVerdict::kUsed:
+      return "used";
+  }
+  return "unknown";
+}
+
 std::string_view health_csv_header() {
   return "state,points_used,iterations,residual_rms_m,translation_conditioning,frozen_directions,"
-         "weakest_signal,weakest_x,weakest_y,weakest_z,visual_patches,visual_noise_scale,log_gain";
+         "weakest_signal,weakest_x,weakest_y,weakest_z,visual_patches,visual_noise_scale,log_gain,"
+         "gaussian,gaussian_explained,gaussian_chi_squared";
 }
 
 std::string health_csv(const TrackingHealth& health) {
   const Eigen::Vector3d& step = health.weakest.step_in_odom;
-  return fmt::format("{},{},{},{:.5f},{:.2e},{},{:.2f},{:.3f},{:.3f},{:.3f},{},{:.2f},{:.3f}",
-                     name_of(health.state), health.points_used, health.iterations, health.residual_rms_m,
-                     health.translation_conditioning, health.frozen_directions, health.weakest.signal,
-                     step.x(), step.y(), step.z(), health.visual_patches, health.visual_noise_scale,
-                     health.log_gain);
+  return fmt::format(
+      "{},{},{},{:.5f},{:.2e},{},{:.2f},{:.3f},{:.3f},{:.3f},{},{:.2f},{:.3f},{},{:.3f},{:.2f}",
+      name_of(health.state), health.points_used, health.iterations, health.residual_rms_m,
+      health.translation_conditioning, health.frozen_directions, health.weakest.signal, step.x(), step.y(),
+      step.z(), health.visual_patches, health.visual_noise_scale, health.log_gain, name_of(health.gaussian),
+      health.gaussian_explained, health.gaussian_chi_squared);
 }
 
 }  // namespace edgesplat::tracking

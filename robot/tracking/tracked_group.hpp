@@ -21,6 +21,16 @@ enum class TrackingState : std::uint8_t {
   kRecovered,     ///< found again less than a second ago
 };
 
+/// What became of a look at the Gaussian map.
+enum class GaussianVerdict : std::uint8_t {
+  kNotLooked,
+  kNoMap,        ///< nothing was drawn, or it fills too little of the picture or shows no texture
+  kNoPicture,    ///< of another size than the camera's, or it shows nothing where the map does
+  kUnlike,       ///< the map explains too little of the picture
+  kContradicts,  ///< alike, but from a pose that the filter holds to be impossible
+  kUsed,
+};
+
 struct DeskewedPoint {
   Eigen::Vector3f p_in_body_m;  ///< in the body frame at the group's end
   float reflectivity;
@@ -48,6 +58,17 @@ struct TrackingHealth {
   int visual_patches = 0;           ///< patches that the picture was aligned with; 0: it was not
   double visual_noise_scale = 0.0;  ///< how much larger their residuals are than the noise explains
   double log_gain = 0.0;            ///< of the picture's brightness, the first picture being 0
+  GaussianVerdict gaussian = GaussianVerdict::kNotLooked;  ///< what came of a look at the Gaussian map
+  double gaussian_explained = 0.0;    ///< share of the compared pixels that the map foretells
+  double gaussian_chi_squared = 0.0;  ///< of its innovation, six degrees of freedom
+};
+
+/// A patch of the visual map in the present picture.
+struct TrackedPatch {
+  Eigen::Vector2f pixel;  ///< its middle in the camera's picture, at full size
+  float side_px = 0.0F;   ///< there
+  float misfit = 0.0F;    ///< its mean squared residual over the usual one of the picture
+  bool used = false;      ///< it counted, the less the larger its misfit; else it was left out
 };
 
 /// One group with its pose: what tracking produces, keyframes and rendering consume. `odom`: continuous,
@@ -63,6 +84,8 @@ struct TrackedGroup {
   Eigen::Vector3d gravity_in_odom_mps2 = Eigen::Vector3d(0.0, 0.0, -9.81);
   TrackingHealth health;
   std::vector<DeskewedPoint> points_in_body;
+  std::vector<TrackedPatch>
+      patches;  ///< of the picture, at most one a cell of its grid; empty without update
 };
 
 }  // namespace edgesplat::tracking

@@ -32,6 +32,10 @@ Result<TrackedGroup> Tracker::track(const sync::MeasureGroup& group) {
   return impl_->track(group);
 }
 
+void Tracker::look_at(std::shared_ptr<GaussianView> map) {
+  impl_->gaussian_view = std::move(map);
+}
+
 TrackingCounters Tracker::counters() const {
   TrackingCounters counters = impl_->counters;
   counters.evicted_cells = impl_->map.evicted_roots();

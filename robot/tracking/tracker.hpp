@@ -5,6 +5,7 @@
 #include "common/base/result.hpp"
 #include "common/sensor/rig.hpp"
 #include "robot/sync/measure_group.hpp"
+#include "robot/tracking/gaussian_view.hpp"
 #include "robot/tracking/tracked_group.hpp"
 #include "robot/tracking/tracking_config.hpp"
 
@@ -32,6 +33,8 @@ struct TrackingCounters {
   std::int64_t visual_updates = 0;       ///< groups whose picture was aligned with the map
   std::int64_t visual_points = 0;        ///< in the visual map at present
   std::int64_t visual_map_bytes = 0;     ///< its present size
+  std::int64_t gaussian_looks = 0;       ///< pictures that were held against the Gaussian map
+  std::int64_t gaussian_updates = 0;     ///< and that the pose was updated with
 };
 
 /// LiDAR-inertial odometry: an iterated error-state Kalman filter on a map of probabilistic planes; without
@@ -46,6 +49,10 @@ class Tracker {
   ~Tracker();
   Tracker(const Tracker&) = delete;
   Tracker& operator=(const Tracker&) = delete;
+
+  /// From now on every `gaussian_every`-th picture is held against the Gaussian map too, where the rig has a
+  /// camera and an IMU. Null: none any more.
+  void look_at(std::shared_ptr<GaussianView> map);
 
   /// The pose at the group's end, and the group's points seen from there. Until gravity is known the state is
   /// kInitialising. kInvalidArgument, with the state untouched, for a group that ends before or at the end of

@@ -57,6 +57,8 @@ Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in, 
   if (config.visual && rig.camera) visual.emplace(config, *rig.camera, loop);
   for (const sensor::LidarMount& mount : rig.more_lidars) more_beams.push_back(beam_of(mount));
   if (with_imu && gravity == Gravity::kFelt) moving_start = std::make_unique<MovingStart>(config, rig);
+  if (config.gaussian_every > 0 && rig.camera)
+    gaussian_updater.emplace(gaussian_config(config), *rig.camera, loop);
 }
 Tracker::Impl::~Impl() = default;
 
@@ -199,23 +201,6 @@ ScanUpdateResult Tracker::Impl::update(Prediction& prediction, HostTime at) {
   return again.updated ? again : result;
 }
 
-// Without an IMU the pose is that of the middle of the points' times, not the picture's.
-VisualUpdateResult Tracker::Impl::see(const sync::MeasureGroup& group, const ScanUpdateResult& scan) {
-  picture_taken = false;
-  if (!visual || !group.image || !group.image->image || !with_imu) return {};
-  picture_taken = visual->take(*group.image);
-  if (!picture_taken) {
-    ++counters.unused_pictures;
-    return {};
-  }
-  VisualUpdateResult result =
-      visual->update(*belief, sweep.points_in_body_m(), !scan.updated || scan.observed.frozen > 0);
-  if (!result.updated) return result;
-  ++counters.visual_updates;
-  belief = result.belief;
-  return result;
-}
-
 void Tracker::Impl::use_rest(const ScanUpdateResult& result) {
   if (!with_imu || gravity == Gravity::kNone || imu.empty() || !rest.add(imu, belief->state)) return;
   const Eigen::Matrix3d unseen =
@@ -226,7 +211,8 @@ void Tracker::Impl::use_rest(const ScanUpdateResult& result) {
 }
 
 TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUpdateResult& result,
-                                   const VisualUpdateResult& picture) const {
+                                   const VisualUpdateResult& picture,
+                                   const GaussianUpdateResult& gaussians) const {
   const FilterBelief at_end =
       belief_time < group.end
           ? predict_without_imu(*belief, free_motion.without_imu(), {belief_time, group.end}).belief
@@ -249,9 +235,13 @@ TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUp
   tracked.health.visual_patches = picture.patches;
   tracked.health.visual_noise_scale = picture.noise_scale;
   tracked.health.log_gain = belief->state.log_gain;
+  tracked.health.gaussian = gaussians.verdict;
+  tracked.health.gaussian_explained = gaussians.explained;
+  tracked.health.gaussian_chi_squared = gaussians.chi_squared;
   if (result.last.used > 0)
     tracked.health.residual_rms_m = std::sqrt(result.last.squares_m2 / result.last.used);
   tracked.health.translation_conditioning = result.translation_conditioning;
+  tracked.patches = patches;
   tracked.points_in_body = sweep.deskewed(tracked.odom_from_body.inverse() * belief->state.odom_from_body);
   return tracked;
 }
@@ -274,7 +264,7 @@ TrackedGroup Tracker::Impl::start(const sync::MeasureGroup& group) {
   extend_map(first);
   scans_to_redraw = kRedrawnScans;
   state = TrackingState::kTracking;
-  TrackedGroup tracked = report(group, first, {});
+  TrackedGroup tracked = report(group, first, {}, {});
   // Without an IMU the speed is unknown until the second group: a sweep cannot be deskewed yet, and where the
   // body was at its end is not known either. The map is begun, but no pose is claimed.
   if (!with_imu && sweep.has_point_times()) tracked.health.state = TrackingState::kInitialising;
@@ -293,7 +283,7 @@ TrackedGroup Tracker::Impl::start_in_motion(const sync::MeasureGroup& group) {
   found.updated = true;  // the pose is that of the odometry that found it
   extend_map(found);
   state = TrackingState::kTracking;
-  return report(group, found, {});
+  return report(group, found, {}, {});
 }
 
 Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
@@ -314,11 +304,12 @@ Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
   belief_time = at;
   last_end = group.end;
   const VisualUpdateResult picture = see(group, result);
+  const GaussianUpdateResult gaussians = look_at_gaussians(group, result);
   if (!picture.updated) use_rest(result);
   judge(result, picture, to_seconds(group.end - group.begin));
   extend_map(result);
   if (picture_taken && !keeper.lost()) visual->extend(*belief, map);
-  return report(group, result, picture);
+  return report(group, result, picture, gaussians);
 }
 
 }  // namespace edgesplat::tracking

@@ -5,6 +5,7 @@
 #include "kernels/pointcloud/voxel_downsample.hpp"
 #include "robot/tracking/block_loop.hpp"
 #include "robot/tracking/free_motion.hpp"
+#include "robot/tracking/gaussian_update.hpp"
 #include "robot/tracking/imu_initialiser.hpp"
 #include "robot/tracking/moving_start.hpp"
 #include "robot/tracking/plane_map.hpp"
@@ -30,6 +31,7 @@ constexpr int kRedrawnScans = 4;
 enum class Gravity : std::uint8_t { kFelt, kNone };
 
 [[nodiscard]] PlaneMapConfig map_config(const TrackingConfig& config);
+[[nodiscard]] GaussianUpdateConfig gaussian_config(const TrackingConfig& config);
 
 /// The stages of one group, in their order. See Tracker.
 struct Tracker::Impl {
@@ -67,12 +69,15 @@ struct Tracker::Impl {
   void use_rest(const ScanUpdateResult& result);
   /// The picture's update, at the moment of the LiDAR's.
   VisualUpdateResult see(const sync::MeasureGroup& group, const ScanUpdateResult& scan);
+  /// The Gaussian map's update, after the picture's patches.
+  GaussianUpdateResult look_at_gaussians(const sync::MeasureGroup& group, const ScanUpdateResult& scan);
   void extend_map(const ScanUpdateResult& update);
   void insert_points(std::span<const Eigen::Vector3f> points_in_body_m, std::span<const std::uint8_t> units,
                      std::span<const std::uint32_t> kept, const geometry::RigidTransform& pose,
                      const Matrix6d& pose_covariance);
   [[nodiscard]] TrackedGroup report(const sync::MeasureGroup& group, const ScanUpdateResult& scan,
-                                    const VisualUpdateResult& picture) const;
+                                    const VisualUpdateResult& picture,
+                                    const GaussianUpdateResult& gaussians) const;
 
   TrackingConfig config;
   sensor::Rig rig;
@@ -94,7 +99,11 @@ struct Tracker::Impl {
   int searches = 0;  ///< for the pose that is lost
   int groups_since_search = 0;
   std::optional<VisualFront> visual;
-  bool picture_taken = false;  ///< the group's picture is in `visual`
+  bool picture_taken = false;         ///< the group's picture is in `visual`
+  std::vector<TrackedPatch> patches;  ///< of that picture
+  std::optional<GaussianUpdater> gaussian_updater;
+  std::shared_ptr<GaussianView> gaussian_view;
+  int pictures_since_look = 0;
   bool with_imu;               ///< decided at the first pose, then fixed
   int groups_without_imu = 0;  ///< in a row, before the first pose
   int scans_to_redraw = 0;     ///< of a start in motion

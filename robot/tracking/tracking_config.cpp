@@ -51,6 +51,11 @@ void describe(config::ConfigReader& reader, TrackingConfig& config) {
                "pictures update the pose after the LiDAR, where the rig has a camera");
   reader.field("visual_map_max_mb", config.visual_map_max_mb, {1, 4096},
                "the farthest visual points are forgotten above this size");
+  reader.field("gaussian_every", config.gaussian_every, {0, 1000},
+               "every so many pictures are held against the Gaussian map too, 0 = none");
+  reader.field("gaussian_width_px", config.gaussian_width_px, {80, 1280},
+               "for that it is drawn at the first halving of the camera at most so wide");
+  reader.field("gaussian_depth", config.gaussian_depth, "and the scan's points are held against its depth");
 }
 
 // The ranges stand once, in describe(): printing and reading back checks every one of them.

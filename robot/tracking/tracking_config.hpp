@@ -48,6 +48,11 @@ struct TrackingConfig {
 
   bool visual = true;          ///< pictures update the pose after the LiDAR, where the rig has a camera
   int visual_map_max_mb = 32;  ///< the farthest visual points are forgotten above this size, [1, 4096]
+
+  int gaussian_every =
+      0;  ///< every so many pictures are held against the Gaussian map too, 0 = none, [0, 1000]
+  int gaussian_width_px = 320;  ///< for that it is drawn at the first halving at most so wide, [80, 1280]
+  bool gaussian_depth = false;  ///< and the scan's points are held against its depth
 };
 
 /// Visits every field with its range, for common/config.

@@ -94,6 +94,22 @@ VisualUpdateResult VisualFront::update(const FilterBelief& prior, std::span<cons
   return last_;
 }
 
+std::vector<TrackedPatch> VisualFront::tracked_patches() const {
+  std::vector<TrackedPatch> tracked;
+  if (!last_.updated) return tracked;
+  const CameraView view(camera_, last_.belief.state.odom_from_body * body_from_camera_);
+  const double size = std::ldexp(1.0, skip_);
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if (last_.misfit[i] < 0.0F) continue;
+    const auto seen = look_at(view, map_.point(patches_[i].point).p_in_odom_m);
+    if (!seen) continue;
+    const Eigen::Vector2d at_full_size = (seen->pixel.array() + 0.5) * size - 0.5;
+    tracked.push_back({at_full_size.cast<float>(), static_cast<float>(image::kPatchSide * size),
+                       last_.misfit[i], static_cast<double>(last_.misfit[i]) <= kMisfitGate});
+  }
+  return tracked;
+}
+
 void VisualFront::extend(const FilterBelief& belief, const PlaneMap& planes) {
   const CameraView view(camera_, belief.state.odom_from_body * body_from_camera_);
   const PosedPicture picture{pyramid_, view, static_cast<float>(belief.state.log_gain)};

@@ -5,6 +5,7 @@
 #include "common/sensor/rig.hpp"
 #include "robot/sync/measure_group.hpp"
 #include "robot/tracking/plane_map.hpp"
+#include "robot/tracking/tracked_group.hpp"
 #include "robot/tracking/tracking_config.hpp"
 #include "robot/tracking/visual_growth.hpp"
 #include "robot/tracking/visual_update.hpp"
@@ -27,6 +28,8 @@ class VisualFront {
   /// `alone`: there are directions that nothing but the picture sees.
   VisualUpdateResult update(const FilterBelief& prior, std::span<const Eigen::Vector3f> points_in_body_m,
                             bool alone);
+  /// Where the patches of the last update lie in the picture, and how well each fits.
+  [[nodiscard]] std::vector<TrackedPatch> tracked_patches() const;
   /// Adds what the picture shows, with the pose as it is now known.
   void extend(const FilterBelief& belief, const PlaneMap& planes);
 

@@ -16,8 +16,6 @@ namespace {
 constexpr std::size_t kBlockSize = 32;
 /// Cauchy kernel: a patch whose mean squared residual is this many times the usual one counts half.
 constexpr double kRobustScale = 3.0;
-/// Patches beyond this many times the usual mean square are left out.
-constexpr double kGateScale = 12.0;
 /// Steps smaller than these end a level: about a hundredth of a pixel.
 constexpr double kRotationDone_rad = 3e-5;
 constexpr double kPositionDone_m = 1e-4;
@@ -101,7 +99,7 @@ VisualUpdater::Sums VisualUpdater::sum(double scale, double share) const {
     if (one.chi_squared < 0.0F) continue;
     const double ratio = static_cast<double>(one.chi_squared) / (kPixels * scale);
     sums.cost += kRobustScale * std::log1p(ratio / kRobustScale);
-    if (ratio > kGateScale) continue;
+    if (ratio > kMisfitGate) continue;
     const double weight = share / (scale * (1.0 + ratio / kRobustScale));
     sums.information += weight * one.information;
     sums.gradient += weight * one.gradient;
@@ -167,9 +165,11 @@ VisualUpdateResult VisualUpdater::run(const FilterBelief& prior, const VisualMap
         result.noise_scale = scale;
         result.updated = true;
         result.agreed.assign(patches.size(), false);
+        result.misfit.assign(patches.size(), -1.0F);
         for (std::size_t k = 0; k < patches.size(); ++k) {
           const auto ratio = static_cast<double>(equations_[k].chi_squared) / (kPixels * scale);
           result.agreed[k] = ratio >= 0.0 && ratio < kRobustScale;
+          result.misfit[k] = static_cast<float>(ratio);
         }
       }
       if (step.segment<3>(kRot).norm() < kRotationDone_rad &&

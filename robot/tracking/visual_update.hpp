@@ -13,6 +13,9 @@
 
 namespace edgesplat::tracking {
 
+/// Patches whose mean squared residual is beyond this many times the usual one are left out.
+inline constexpr double kMisfitGate = 12.0;
+
 struct VisualUpdateConfig {
   PatchNoise noise;
   int max_iterations = 5;  ///< at each pyramid level
@@ -33,6 +36,8 @@ struct VisualUpdateResult {
   int patches = 0;           ///< that counted
   double noise_scale = 1.0;  ///< how much larger the residuals are than the noise explains, as variances
   std::vector<bool> agreed;  ///< one a selected patch: it looked as expected
+  /// One a selected patch: its mean squared residual over the usual one; below 0 out of the picture.
+  std::vector<float> misfit;
 };
 
 /// The iterated update of the filter with the patches of one picture, coarse to fine (FAST-LIVO2, VI), on

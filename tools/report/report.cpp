@@ -9,6 +9,11 @@
 #include <fmt/format.h>
 
 namespace edgesplat::report {
+namespace {
+
+constexpr std::size_t kPatchPictures = 4;
+
+}  // namespace
 
 Result<Report> write_report(const ReportOptions& options) {
   EDGESPLAT_TRY(RunFolder run, read_run_folder(options.run));
@@ -27,7 +32,7 @@ Result<Report> write_report(const ReportOptions& options) {
   body += map_section(run);
   body += held_out_section(run, options.max_keyframes);
   body += camera_section(pictures);
-  body += tracking_section(run);
+  body += tracking_section(run, patch_pictures(run, kPatchPictures));
   body += timing_section(run);
   body += modes_section(run, report.summary.link);
   body += losses_section(run);

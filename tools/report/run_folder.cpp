@@ -41,7 +41,8 @@ std::vector<KeyframeFiles> find_keyframes(const std::filesystem::path& robot) {
     if (it->path().extension() != ".jpg") continue;
     const std::string number = it->path().stem().string();
     KeyframeFiles files{number, it->path(), existing(robot / "keyframes" / (number + "_overlay.png")),
-                        existing(robot / "renders" / (number + ".png"))};
+                        existing(robot / "renders" / (number + ".png")),
+                        existing(robot / "keyframes" / (number + "_patches.csv"))};
     if (files.overlay.empty() && files.render.empty()) continue;  // kept for scoring, not to be shown
     keyframes.push_back(std::move(files));
   }

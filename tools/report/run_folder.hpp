@@ -22,6 +22,7 @@ struct KeyframeFiles {
   std::filesystem::path image;
   std::filesystem::path overlay;
   std::filesystem::path render;
+  std::filesystem::path patches;
 };
 
 /// A run folder (ARCHITECTURE.md) as far as it can be read. Missing or damaged pieces are empty and said in

@@ -33,8 +33,12 @@ struct KeyframePictures {
 /// empty where the run was not scored.
 [[nodiscard]] std::string held_out_section(RunFolder& run, std::size_t limit);
 
+/// Up to `limit` keyframes with tracking's patches on the picture, evenly spread; damaged ones are said in
+/// run.missing. HTML, a figure each.
+[[nodiscard]] std::vector<std::string> patch_pictures(RunFolder& run, std::size_t limit);
 /// States over time, directions that the LiDAR does not see, patches of the picture, the devices' clocks.
-[[nodiscard]] std::string tracking_section(const RunFolder& run);
+[[nodiscard]] std::string tracking_section(const RunFolder& run,
+                                           const std::vector<std::string>& patch_pictures);
 /// Stage times: table of percentiles, curves over time; points and poses a second.
 [[nodiscard]] std::string timing_section(const RunFolder& run);
 /// LOCAL, LEAN and FULL over time with what decided it: latency, memory, bandwidth; bytes; the maps' hashes.

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
+#include "common/io/atomic_file.hpp"
+#include "common/io/image_file.hpp"
 #include "tools/report/html_page.hpp"
+#include "tools/report/patch_picture.hpp"
 #include "tools/report/run_metrics.hpp"
 #include "tools/report/sections.hpp"
 #include "tools/report/svg_plot.hpp"
@@ -106,9 +109,34 @@ std::string offsets_table(const nlohmann::json& metrics) {
   return rows.size() > 1 ? html_table(rows) : "";
 }
 
+Result<std::string> picture_with_patches(const KeyframeFiles& files) {
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 20U;
+  EDGESPLAT_TRY(const std::string text, io::read_text_file(files.patches, kMostBytes));
+  EDGESPLAT_TRY(const CsvTable patches, CsvTable::parse(text, files.patches.filename().string()));
+  EDGESPLAT_TRY(const sensor::ImageRgb8 picture, io::load_rgb8(files.image));
+  return patch_picture(picture, patches, "keyframe " + files.number);
+}
+
 }  // namespace
 
-std::string tracking_section(const RunFolder& run) {
+std::vector<std::string> patch_pictures(RunFolder& run, std::size_t limit) {
+  std::vector<const KeyframeFiles*> with_patches;
+  for (const KeyframeFiles& files : run.keyframes)
+    if (!files.patches.empty()) with_patches.push_back(&files);
+  std::vector<std::string> pictures;
+  const std::size_t count = std::min(limit, with_patches.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    auto picture = picture_with_patches(*with_patches[(i + 1) * with_patches.size() / count - 1]);
+    if (picture) {
+      pictures.push_back(*std::move(picture));
+    } else {
+      run.missing.push_back(picture.error().context);
+    }
+  }
+  return pictures;
+}
+
+std::string tracking_section(const RunFolder& run, const std::vector<std::string>& patch_pictures) {
   const CsvTable& table = run.groups;
   const Groups groups = groups_of(table);
   std::vector<std::string> plots;
@@ -128,6 +156,13 @@ std::string tracking_section(const RunFolder& run) {
   if (const std::string states = states_text(groups); !states.empty())
     body += html_paragraph("States: " + states + ". Coloured stretches: not simply tracking.");
   if (!plots.empty()) body += html_grid(plots);
+  if (!patch_pictures.empty()) {
+    body += html_paragraph(
+        "Patches of the visual map where tracking expected them in the picture, coloured by how far they are "
+        "from "
+        "looking as they did before: the farther, the less they count. Crossed out: left out.");
+    body += html_grid(patch_pictures);
+  }
   body += offsets_table(run.robot_metrics);
   if (body.empty()) body = html_paragraph("The run says nothing about its tracking.");
   return html_section("What tracking saw", body);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdio>
 #include <fstream>
 
 namespace edgesplat::app {
@@ -50,6 +51,34 @@ TEST(KeyframeAlbum, WritesEveryPictureButOnlyAFewWhole) {
   const auto json = nlohmann::json::parse(text);
   EXPECT_DOUBLE_EQ(json["map_from_camera"]["translation_m"][0].get<double>(), 1.5);
   EXPECT_DOUBLE_EQ(json["map_from_camera"]["translation_m"][1].get<double>(), 7.0);
+}
+
+TEST(KeyframeAlbum, WritesPatchesWhereTheUndistortedPictureShowsThem) {
+  KeyframeAlbum album(4);
+  const auto made = keyframe(0);
+  // The second lies where the undistorted picture does not reach any more.
+  album.add(made, {{{10.0F, 8.0F}, 16.0F, 0.5F, true},
+                   {{-40.0F, 8.0F}, 16.0F, 0.5F, true},
+                   {{25.0F, 20.0F}, 16.0F, 13.0F, false}});
+  album.add(keyframe(1));
+  const test::TempDir folder;
+  const Status written = album.write(folder.path(), {}, {});
+  ASSERT_TRUE(written) << written.error().context;
+  std::ifstream file(folder.path() / "keyframes" / "000000_patches.csv");
+  std::string header, first, last, none;
+  std::getline(file, header);
+  std::getline(file, first);
+  std::getline(file, last);
+  EXPECT_EQ(header, "x_px,y_px,side_px,misfit,used");
+  const geometry::CameraModel& camera = made->camera->model;
+  const Eigen::Vector3d ray = camera.unproject({10.0, 8.0});
+  double x = 0.0, y = 0.0;
+  ASSERT_EQ(std::sscanf(first.c_str(), "%lf,%lf,16,0.50,1", &x, &y), 2) << first;
+  EXPECT_NEAR(x, camera.cx_px + camera.fx_px * ray.x() / ray.z(), 0.06);
+  EXPECT_NEAR(y, camera.cy_px + camera.fy_px * ray.y() / ray.z(), 0.06);
+  EXPECT_TRUE(last.ends_with(",16,13.00,0")) << last;
+  EXPECT_FALSE(std::getline(file, none));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "keyframes" / "000001_patches.csv"));
 }
 
 TEST(KeyframeAlbum, WritesWhatWasHeldOutApart) {

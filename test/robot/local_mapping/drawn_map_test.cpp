@@ -75,5 +75,17 @@ TEST(DrawnMap, ACorrectionMovesTheRobotsOwnAlone) {
     EXPECT_NEAR(std::abs(back->quats_xyzw[i]), std::abs(own->quats_xyzw[i]), 1e-5);
 }
 
+TEST(DrawnMap, IsPlacedByTheCorrectionThatItWasPutTogetherWith) {
+  DrawnMap drawn;
+  EXPECT_TRUE(drawn.placed().map_from_odom.matrix() == geometry::RigidTransform::identity().matrix());
+  map::MapFromOdom correction;
+  correction.version = 1;
+  correction.map_from_odom.translation_m = {0.5, 0.0, -0.25};
+  drawn.set_resident(cloud(5, 2), correction);
+  const DrawnMap::Placed placed = drawn.placed();
+  EXPECT_EQ(placed.in_map, drawn.snapshot());
+  EXPECT_EQ(placed.map_from_odom.translation_m, correction.map_from_odom.translation_m);
+}
+
 }  // namespace
 }  // namespace edgesplat::local_mapping

@@ -10,6 +10,7 @@
 
 #include <cstring>
 #include <limits>
+#include <memory>
 
 namespace edgesplat::tracking {
 namespace {
@@ -222,6 +223,55 @@ TEST(Tracker, RefusesAConfigurationOutOfRange) {
   sensor::Rig blind;
   blind.lidar.range_sigma_m = 0.0;
   EXPECT_FALSE(Tracker::create({}, blind).has_value());
+}
+
+class NoMap : public GaussianView {
+ public:
+  std::optional<GaussianPicture> draw(const geometry::CameraModel&,
+                                      const geometry::RigidTransform&) override {
+    ++asked;
+    return std::nullopt;
+  }
+  int asked = 0;
+};
+
+/// Drives with pictures that show nothing; the last pose.
+geometry::RigidTransform drive_with_view(int every, const std::shared_ptr<NoMap>& view,
+                                         TrackingCounters& counters) {
+  test::SimulatedDrive source(kRoom, drive_config(true, 4.0));
+  sensor::Rig rig = source.rig();
+  rig.camera.emplace();
+  rig.camera->model = {geometry::CameraKind::kPinhole, 160, 128, 80.0, 80.0, 79.5, 63.5, {}};
+  TrackingConfig config;
+  config.gaussian_every = every;
+  const auto tracker = make_tracker(rig, config);
+  tracker->look_at(view);
+  geometry::RigidTransform last;
+  while (auto group = source.next()) {
+    group->image =
+        sync::GroupImage{std::make_shared<sensor::ImageRgb8>(160, 128, std::uint8_t{90}), 0.0F, 0.0F, 0};
+    const auto tracked = tracker->track(*group);
+    EXPECT_TRUE(tracked.has_value());
+    last = tracked->odom_from_body;
+  }
+  counters = tracker->counters();
+  return last;
+}
+
+TEST(Tracker, LooksAtTheGaussianMapOnlyWhereAskedTo) {
+  TrackingCounters never, every_third, without_view;
+  const auto view = std::make_shared<NoMap>();
+  const auto pose = drive_with_view(0, view, never);
+  EXPECT_EQ(view->asked, 0);
+  EXPECT_EQ(never.gaussian_looks, 0);
+  // A map that is not there yet changes nothing.
+  EXPECT_EQ(drive_with_view(3, view, every_third).matrix(), pose.matrix());
+  EXPECT_GT(every_third.gaussian_looks, 10);
+  EXPECT_LE(every_third.gaussian_looks, every_third.groups / 3);
+  EXPECT_EQ(view->asked, every_third.gaussian_looks);
+  EXPECT_EQ(every_third.gaussian_updates, 0);
+  EXPECT_EQ(drive_with_view(3, nullptr, without_view).matrix(), pose.matrix());
+  EXPECT_EQ(without_view.gaussian_looks, 0);
 }
 
 }  // namespace

@@ -72,8 +72,8 @@ TEST(WriteReport, ThePageStandsAlone) {
   for (const char* text :
        {"<h2>Trajectory</h2>", "<h2>Point map</h2>", "<h2>Camera and Gaussians</h2>",
         "<h2>What tracking saw</h2>", "initialising 0.4 s, tracking 17.5 s, degraded 2.0 s",
-        "Directions left to the IMU", "<h2>Times and rates</h2>", "<h2>Drops and losses</h2>",
-        "<h2>Settings</h2>", "livox.points.lost", "&lt;test &amp; rig&gt;"}) {
+        "Directions left to the IMU", "keyframe 000011: 2 of 3 patches used", "<h2>Times and rates</h2>",
+        "<h2>Drops and losses</h2>", "<h2>Settings</h2>", "livox.points.lost", "&lt;test &amp; rig&gt;"}) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
   }
   for (const char* text : {"<script", "http", "nan", "inf\""}) {

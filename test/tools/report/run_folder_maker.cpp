@@ -105,6 +105,10 @@ Status write_pictures(const std::filesystem::path& folder) {
     EDGESPLAT_TRY_STATUS(io::save_image(keyframes / (name + "_overlay.png"), picture_of(number, 20)));
     EDGESPLAT_TRY_STATUS(
         io::save_image(folder / "robot" / "renders" / (name + ".png"), picture_of(number, 5)));
+    EDGESPLAT_TRY_STATUS(io::write_file_atomically(
+        keyframes / (name + "_patches.csv"),
+        std::string_view(
+            "x_px,y_px,side_px,misfit,used\n40.0,30.0,8,0.40,1\n80.5,60.0,8,2.90,1\n20.0,50.0,8,15.00,0\n")));
   }
   return {};
 }
