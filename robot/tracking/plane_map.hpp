@@ -20,7 +20,7 @@ struct PlaneMapConfig {
   int max_layer = 2;
   float plane_sigma_max_m = 0.05F;
   std::uint32_t plane_min_points = 6;
-  std::uint32_t plane_freeze_points = 1000;
+  std::uint32_t plane_freeze_points = 3000;
   double half_extent_m = 100.0;
   std::size_t max_bytes = std::size_t{256} << 20U;
 };

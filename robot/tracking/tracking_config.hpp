@@ -36,7 +36,7 @@ struct TrackingConfig {
   int max_layer = 2;                 ///< how often a cell that is no plane is split in eight, [0, 4]
   double plane_sigma_max_m = 0.05;   ///< a cell whose points scatter more across is no plane, [0.001, 1]
   int plane_min_points = 6;          ///< points before a plane is fitted, [5, 16]
-  int plane_freeze_points = 1000;    ///< a plane takes no more points after these, [8, 100000]
+  int plane_freeze_points = 3000;    ///< a plane takes no more points after these, [8, 100000]
   double map_half_extent_m = 100.0;  ///< cells farther than this along an axis are forgotten, [5, 10000]
   int map_max_mb = 256;              ///< the farthest cells are forgotten above this size, [8, 65536]
 
