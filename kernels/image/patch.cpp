@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/image/patch.hpp"
 
+#include "kernels/image/bilinear.hpp"
+
 #include <cmath>
 #include <cstddef>
 
@@ -15,18 +17,10 @@ bool fits(float x, float reach, int size) {
   return x - reach >= 0.0F && x + reach < static_cast<float>(size - 1);
 }
 
-float bilinear(const sensor::ImageGray8& picture, float x, float y) {
+float value_at(const sensor::ImageGray8& picture, float x, float y) {
   const auto ix = static_cast<int>(x);
   const auto iy = static_cast<int>(y);
-  const float fx = x - static_cast<float>(ix);
-  const float fy = y - static_cast<float>(iy);
-  const std::uint8_t* top = picture.pixel(ix, iy);
-  const std::uint8_t* bottom = top + picture.width_px;
-  const auto a = static_cast<float>(top[0]), b = static_cast<float>(top[1]);
-  const auto c = static_cast<float>(bottom[0]), d = static_cast<float>(bottom[1]);
-  const float above = a + fx * (b - a);
-  const float below = c + fx * (d - c);
-  return above + fy * (below - above);
+  return bilinear(picture, ix, iy, x - static_cast<float>(ix), y - static_cast<float>(iy));
 }
 
 }  // namespace
@@ -43,7 +37,7 @@ std::optional<BorderedPatch> cut_patch(const sensor::ImageGray8& picture, const 
       const float x = centre_px.x() + static_cast<float>(column) - kHalf - 1.0F;
       const float y = centre_px.y() + static_cast<float>(row) - kHalf - 1.0F;
       // Never negative, and lround is a call. NOLINTNEXTLINE(bugprone-incorrect-roundings)
-      patch[i] = static_cast<std::uint8_t>(bilinear(picture, x, y) + 0.5F);
+      patch[i] = static_cast<std::uint8_t>(value_at(picture, x, y) + 0.5F);
     }
   }
   return patch;
@@ -61,7 +55,7 @@ bool sample_patch(const sensor::ImageGray8& picture, const Eigen::Vector2f& cent
     const float dy = static_cast<float>(row) - kHalf;
     for (int column = 0; column < kPatchSide; ++column, ++i) {
       const float dx = static_cast<float>(column) - kHalf;
-      values[i] = bilinear(picture, centre_px.x() + step(0, 0) * dx + step(0, 1) * dy,
+      values[i] = value_at(picture, centre_px.x() + step(0, 0) * dx + step(0, 1) * dy,
                            centre_px.y() + step(1, 0) * dx + step(1, 1) * dy);
     }
   }

@@ -3,6 +3,7 @@
 #include "robot/tracking/gaussian_update.hpp"
 
 #include "common/geometry/so3.hpp"
+#include "kernels/image/bilinear.hpp"
 #include "kernels/image/undistort.hpp"
 #include "robot/tracking/iterated_update.hpp"
 
@@ -53,12 +54,8 @@ int halvings(const geometry::CameraModel& camera, int width_px) {
 float sample(const sensor::ImageGray8& picture, const Eigen::Vector2d& at) {
   const double x = std::floor(at.x()), y = std::floor(at.y());
   if (!(x >= 0.0 && y >= 0.0 && x + 1.0 < picture.width_px && y + 1.0 < picture.height_px)) return -1.0F;
-  const auto right = static_cast<float>(at.x() - x), down = static_cast<float>(at.y() - y);
-  const std::uint8_t* upper = picture.pixel(static_cast<int>(x), static_cast<int>(y));
-  const std::uint8_t* lower = upper + picture.width_px;
-  const float above = static_cast<float>(upper[0]) + right * static_cast<float>(upper[1] - upper[0]);
-  const float below = static_cast<float>(lower[0]) + right * static_cast<float>(lower[1] - lower[0]);
-  return above + down * (below - above);
+  return image::bilinear(picture, static_cast<int>(x), static_cast<int>(y), static_cast<float>(at.x() - x),
+                         static_cast<float>(at.y() - y));
 }
 
 }  // namespace
