@@ -27,17 +27,13 @@ struct ScanUpdateConfig {
 /// The points to be matched, and how noisy they are.
 struct ScanView {
   std::span<const Eigen::Vector3f> points_in_body_m;
-  Eigen::Vector3f lidar_in_body_m = Eigen::Vector3f::Zero();  ///< of the first LiDAR
-  const PointNoise* noise = nullptr;                          ///< of the first LiDAR
-  std::span<const Beam> more_beams = {};                      ///< of units 1, 2, ...
+  std::span<const Beam> beams;               ///< of the rig's LiDARs
   std::span<const std::uint8_t> units = {};  ///< the LiDAR of each point; empty: the first measured all
 
   /// Of the i-th point along a direction in the body frame.
   [[nodiscard]] float variance_along(std::size_t i, const Eigen::Vector3f& direction) const {
-    const Eigen::Vector3f& p = points_in_body_m[i];
-    if (units.empty() || units[i] == 0) return noise->variance_along(p - lidar_in_body_m, direction);
-    const Beam& beam = more_beams[units[i] - 1U];
-    return beam.noise.variance_along(p - beam.lidar_in_body_m, direction);
+    const Beam& beam = beams[units.empty() ? 0U : units[i]];
+    return beam.noise.variance_along(points_in_body_m[i] - beam.lidar_in_body_m, direction);
   }
 };
 

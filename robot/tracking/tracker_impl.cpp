@@ -46,7 +46,6 @@ Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in, 
       rig(rig_in),
       gravity(gravity_in),
       loop(config_in.threads),
-      noise(rig_in.lidar),
       map(map_config(config_in)),
       updater(update_config(config_in), loop),
       sweep(rig_in, config_in.max_range_m, loop),
@@ -55,7 +54,7 @@ Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in, 
       rest(rig_in.imu.value_or(sensor::ImuModel{})),
       with_imu(rig_in.imu.has_value()) {
   if (config.visual && rig.camera) visual.emplace(config, *rig.camera, loop);
-  for (const sensor::LidarMount& mount : rig.more_lidars) more_beams.push_back(beam_of(mount));
+  for (std::size_t unit = 0; unit < rig.lidar_count(); ++unit) beams.push_back(beam_of(rig.mount_of(unit)));
   if (with_imu && gravity == Gravity::kFelt) moving_start = std::make_unique<MovingStart>(config, rig);
   if (config.gaussian_every > 0 && rig.camera)
     gaussian_updater.emplace(gaussian_config(config), *rig.camera, loop);
@@ -171,7 +170,7 @@ void Tracker::Impl::pick_scan_points() {
 }
 
 ScanView Tracker::Impl::scan_view() const {
-  return {scan_points_m, rig.body_from_lidar.translation_m.cast<float>(), &noise, more_beams, scan_units};
+  return {scan_points_m, beams, scan_units};
 }
 
 ScanUpdateResult Tracker::Impl::match(const Prediction& prediction, const FilterState& start) {

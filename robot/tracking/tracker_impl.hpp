@@ -84,8 +84,7 @@ struct Tracker::Impl {
   Gravity gravity;
   TrackingCounters counters;
   BlockLoop loop;
-  PointNoise noise;              ///< of the first LiDAR
-  std::vector<Beam> more_beams;  ///< of the others
+  std::vector<Beam> beams;  ///< of the rig's LiDARs
   PlaneMap map;
   ScanUpdater updater;
   Sweep sweep;

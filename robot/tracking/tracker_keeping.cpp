@@ -117,13 +117,11 @@ void Tracker::Impl::insert_points(std::span<const Eigen::Vector3f> points,
   const Eigen::Matrix3f rotation_f = rotation.cast<float>();
   const Eigen::Matrix3f rotation_noise = pose_covariance.block<3, 3>(kRot, kRot).cast<float>();
   const Eigen::Matrix3f position_noise = pose_covariance.block<3, 3>(kPos, kPos).cast<float>();
-  const Beam first_beam{rig.body_from_lidar.translation_m.cast<float>(), noise};
   map_points.resize(kept.size());
   loop.run(kept.size(), kBlockSize, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Eigen::Vector3f& p = points[kept[i]];
-      const std::uint8_t unit = units[kept[i]];
-      const Beam& beam = unit == 0 ? first_beam : more_beams[unit - 1U];
+      const Beam& beam = beams[units[kept[i]]];
       const Eigen::Matrix3f in_body = beam.noise.covariance(p - beam.lidar_in_body_m);
       Eigen::Matrix3f lever;
       lever << 0.0F, -p.z(), p.y(), p.z(), 0.0F, -p.x(), -p.y(), p.x(), 0.0F;

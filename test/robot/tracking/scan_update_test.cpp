@@ -51,14 +51,14 @@ class ScanUpdate : public testing::Test {
     return belief;
   }
   ScanUpdateResult update(const FilterBelief& belief, std::span<const Eigen::Vector3f> points) {
-    return updater_.run(belief, belief.state, {points, Eigen::Vector3f::Zero(), &noise_}, map_);
+    return updater_.run(belief, belief.state, {points, {&beam_, 1}}, map_);
   }
   double position_error(const ScanUpdateResult& result) const {
     return (result.belief.state.odom_from_body.translation_m - truth_.translation_m).norm();
   }
 
   geometry::RigidTransform truth_{geometry::so3_exp({0.02, 0.03, 0.6}), {0.4, -0.7, 1.1}};
-  PointNoise noise_{sensor::LidarModel{}};
+  Beam beam_{Eigen::Vector3f::Zero(), PointNoise(sensor::LidarModel{})};
   PlaneMap map_{PlaneMapConfig{}};
   BlockLoop loop_{1};
   ScanUpdater updater_{ScanUpdateConfig{}, loop_};
@@ -106,15 +106,14 @@ TEST_F(ScanUpdate, PointsOnOnePlaneShareItsError) {
   const PlaneMatch floor = map_.find({0.5, 0.5, 0.5});
   ASSERT_NE(floor.plane, nullptr);
   const double least_m2 = floor.plane->offset_variance_m2;
+  const Beam above{{0.5F, 0.5F, 2.0F}, PointNoise(sensor::LidarModel{})};
   const auto information_of = [&](int points) {
     std::vector<Eigen::Vector3f> scan;
     for (int i = 0; i < points; ++i) {
       scan.emplace_back(static_cast<float>(random.uniform(0.3, 0.7)),
                         static_cast<float>(random.uniform(0.3, 0.7)), 0.5F);
     }
-    return updater_
-        .evaluate({}, ErrorMatrix::Identity().topLeftCorner<6, 6>(), {scan, {0.5F, 0.5F, 2.0F}, &noise_},
-                  map_)
+    return updater_.evaluate({}, ErrorMatrix::Identity().topLeftCorner<6, 6>(), {scan, {&above, 1}}, map_)
         .equations.information(kPos + 2, kPos + 2);
   };
   EXPECT_GT(information_of(20), 1.5 * information_of(1));
@@ -167,7 +166,7 @@ TEST_F(ScanUpdate, TwoThreadsGiveTheSameBits) {
   BlockLoop two(2);
   ScanUpdater with_two(ScanUpdateConfig{}, two);
   const FilterBelief belief = prior(0.1);
-  const ScanView view{points, Eigen::Vector3f::Zero(), &noise_};
+  const ScanView view{points, {&beam_, 1}};
   const ErrorMatrix one = update(belief, points).belief.covariance;
   EXPECT_EQ(with_two.run(belief, belief.state, view, map_).belief.covariance, one);
 }

@@ -141,22 +141,21 @@ TEST(SeveralLidars, HaveNoiseOfTheirOwnAroundRaysFromTheirOwnPlace) {
   sensor::LidarModel model;
   model.range_sigma_m = 0.02;
   model.bearing_sigma_rad = 0.001;
-  const PointNoise first(model);
   sensor::LidarMount mount = second_lidar();
   mount.model.range_sigma_m = 0.1;
   mount.model.bearing_sigma_rad = 0.01;
   mount.body_from_lidar.translation_m = {0.0, 0.0, 5.0};
-  const Beam beam = beam_of(mount);
+  const Beam beams[] = {{Eigen::Vector3f::Zero(), PointNoise(model)}, beam_of(mount)};
   const Eigen::Vector3f points[] = {{5.0F, 0.0F, 5.0F}, {5.0F, 0.0F, 5.0F}};
   const std::uint8_t units[] = {0, 1};
-  const ScanView view{points, Eigen::Vector3f::Zero(), &first, {&beam, 1}, units};
+  const ScanView view{points, beams, units};
   const Eigen::Vector3f x(1.0F, 0.0F, 0.0F), z(0.0F, 0.0F, 1.0F);
   // Seen from the first the ray is slanted by 45 degrees, from the second it is along x, 5 m long.
   const float along = 0.02F * 0.02F, across = 0.001F * 0.001F * 50.0F;
   EXPECT_NEAR(view.variance_along(0, x), 0.5F * (along + across), 1e-7F);
   EXPECT_NEAR(view.variance_along(1, x), 0.1F * 0.1F, 1e-7F);
   EXPECT_NEAR(view.variance_along(1, z), 0.01F * 0.01F * 25.0F, 1e-7F);
-  const ScanView of_one{points, Eigen::Vector3f::Zero(), &first};
+  const ScanView of_one{points, beams};
   EXPECT_EQ(of_one.variance_along(1, x), view.variance_along(0, x));
 }
 
