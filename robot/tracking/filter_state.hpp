@@ -23,13 +23,17 @@ constexpr int kErrorSize = 19;
 using ErrorVector = Eigen::Matrix<double, kErrorSize, 1>;
 using ErrorMatrix = Eigen::Matrix<double, kErrorSize, kErrorSize>;
 
+/// Of the Earth, wherever the body is, and 1 sigma of it: latitude and height change it by 0.3 %.
+inline constexpr double kGravity_mps2 = 9.81;
+inline constexpr double kGravityNormSigma_mps2 = 0.02;
+
 /// What the filter estimates. The rotation's error acts on the right, the others add (rigid_transform.hpp).
 struct FilterState {
   geometry::RigidTransform odom_from_body;
   Eigen::Vector3d velocity_in_odom_mps = Eigen::Vector3d::Zero();
   Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();
   Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();
-  Eigen::Vector3d gravity_in_odom_mps2 = Eigen::Vector3d(0.0, 0.0, -9.81);
+  Eigen::Vector3d gravity_in_odom_mps2 = Eigen::Vector3d(0.0, 0.0, -kGravity_mps2);
   /// Natural logarithm of how bright the camera shows things, the first picture being 0: the gain itself is
   /// positive by construction.
   double log_gain = 0.0;

@@ -10,10 +10,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStandardGravity_mps2 = 9.81;
 /// A MEMS accelerometer's bias over the years: what levelling at rest cannot see.
 constexpr double kAccelBiasSigma_mps2 = 0.1;
-constexpr double kGravitySigma_mps2 = 0.02;
+/// Of the first speed where neither the IMU feels motion nor the scans see any. Were it as unknown as that of
+/// a start in motion, the first scans' chance would decide about it where a direction is not seen.
+constexpr double kSpeedSigma_mps = 0.1;
 /// A mean force further from gravity's is a push, or an IMU in the wrong unit.
 constexpr double kRestForceTolerance_mps2 = 0.5;
 
@@ -56,13 +57,13 @@ bool ImuInitialiser::at_rest(const Spread& accel, const Spread& gyro) const {
   return accel.deviation < limit(config_.init_accel_spread_max_mps2, model_.accel_noise_mps2_per_sqrt_hz) &&
          gyro.deviation < limit(config_.init_gyro_rate_max_radps, model_.gyro_noise_radps_per_sqrt_hz) &&
          gyro.mean.norm() < config_.init_gyro_rate_max_radps &&
-         std::abs(accel.mean.norm() - kStandardGravity_mps2) < kRestForceTolerance_mps2;
+         std::abs(accel.mean.norm() - kGravity_mps2) < kRestForceTolerance_mps2;
 }
 
 FilterBelief ImuInitialiser::solve(const Spread& accel, const Spread& gyro) const {
   FilterBelief belief;
   belief.state.odom_from_body.rotation = Eigen::Quaterniond::FromTwoVectors(accel.mean, Vector3d::UnitZ());
-  belief.state.gravity_in_odom_mps2 = Vector3d(0.0, 0.0, -kStandardGravity_mps2);
+  belief.state.gravity_in_odom_mps2 = Vector3d(0.0, 0.0, -kGravity_mps2);
   belief.state.gyro_bias_radps = gyro.mean;
   belief.covariance = initial_covariance(belief.state, accel, gyro);
   return belief;
@@ -81,18 +82,17 @@ ErrorMatrix ImuInitialiser::initial_covariance(const FilterState& state, const S
   set(kRot, 1e-4);
   set(kPos, 1e-4);
   set(kAccelBias, kAccelBiasSigma_mps2);
-  // A body that rolls smoothly feels the same as one at rest: the speed stays unknown until the second scan.
-  set(kVel, config_.init_moving_speed_sigma_mps);
+  set(kVel, kSpeedSigma_mps);
   set(kGyroBias, 1e-4 + gyro.deviation / std::sqrt(samples));
   const Eigen::Matrix3d rotation = state.odom_from_body.rotation.toRotationMatrix();
   const double bias_variance = kAccelBiasSigma_mps2 * kAccelBiasSigma_mps2;
   set(kGravity, std::hypot(kAccelBiasSigma_mps2, 0.005 + accel.deviation / std::sqrt(samples)));
   p.block<3, 3>(kGravity, kAccelBias) = bias_variance * rotation;
   p.block<3, 3>(kAccelBias, kGravity) = bias_variance * rotation.transpose();
-  // Gravity's length is known (latitude and height change it by 0.3 %): a measurement of its z.
+  // Gravity's length is known: a measurement of its z.
   constexpr int kDown = kGravity + 2;
   const ErrorVector column = p.col(kDown);
-  p -= column * column.transpose() / (column(kDown) + kGravitySigma_mps2 * kGravitySigma_mps2);
+  p -= column * column.transpose() / (column(kDown) + kGravityNormSigma_mps2 * kGravityNormSigma_mps2);
   return p;
 }
 

@@ -19,8 +19,6 @@ using Eigen::Vector3d;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 
-constexpr double kGravity_mps2 = 9.81;
-constexpr double kGravityNormSigma_mps2 = 0.02;  // latitude and height change it by 0.3 %
 constexpr std::size_t kMinPoses = 4;
 constexpr int kIterations = 5;
 /// Where poses and samples agree this is about 1; poses a centimetre off without saying so make it 10.

@@ -20,9 +20,6 @@ constexpr double kDeskewAgain_rad = 0.0005;
 /// taken to be no faster in the others.
 constexpr double kRestSpeed_mps = 0.05;
 constexpr double kRestSigma_mps = 0.02;
-/// 1 sigma of the first speed where neither the IMU feels motion nor the scans see any. Were it as unknown as
-/// that of a start in motion, the first scans' chance would decide about it where a direction is not seen.
-constexpr double kRestStartSigma_mps = 0.1;
 
 ScanUpdateConfig update_config(const TrackingConfig& config) {
   return {config.max_iterations, static_cast<float>(config.gate_sigma),
@@ -118,8 +115,6 @@ void Tracker::Impl::initialise_with_imu(const sync::MeasureGroup& group) {
     ++counters.moving_starts;
   } else {
     started.reset();
-    belief->covariance.block<3, 3>(kVel, kVel) =
-        kRestStartSigma_mps * kRestStartSigma_mps * Eigen::Matrix3d::Identity();
   }
   counters.refused_starts = moving_start->refused();
   moving_start.reset();
