@@ -100,12 +100,12 @@ std::vector<TrackedPatch> VisualFront::tracked_patches() const {
   const CameraView view(camera_, last_.belief.state.odom_from_body * body_from_camera_);
   const double size = std::ldexp(1.0, skip_);
   for (std::size_t i = 0; i < patches_.size(); ++i) {
-    if (last_.misfit[i] < 0.0F) continue;
+    if (last_.misfit[i] < 0.0) continue;
     const auto seen = look_at(view, map_.point(patches_[i].point).p_in_odom_m);
     if (!seen) continue;
     const Eigen::Vector2d at_full_size = (seen->pixel.array() + 0.5) * size - 0.5;
     tracked.push_back({at_full_size.cast<float>(), static_cast<float>(image::kPatchSide * size),
-                       last_.misfit[i], static_cast<double>(last_.misfit[i]) <= kMisfitGate});
+                       static_cast<float>(last_.misfit[i]), last_.misfit[i] <= kMisfitGate});
   }
   return tracked;
 }
@@ -117,11 +117,11 @@ void VisualFront::extend(const FilterBelief& belief, const PlaneMap& planes) {
   if (!last_.updated && static_cast<int>(patches_.size()) >= VisualUpdateConfig{}.min_patches) return;
   std::vector<bool> occupied(static_cast<std::size_t>(grid_.cells()), false);
   for (std::size_t i = 0; i < patches_.size(); ++i) {
-    if (!last_.updated || !last_.agreed[i]) continue;
+    if (!last_.updated || !last_.agreed(i)) continue;
     const auto seen = look_at(view, map_.point(patches_[i].point).p_in_odom_m);
     if (seen) occupied[static_cast<std::size_t>(grid_.cell_of(seen->pixel))] = true;
   }
-  if (last_.updated) judge_points(map_, patches_, last_.agreed, picture);
+  if (last_.updated) judge_points(map_, patches_, last_, picture);
   add_points(map_, planes, picture, grid_, depths_, occupied, pictures_++);
   map_.slide(view.camera_in_odom_m, config_.map_half_extent_m);
 }

@@ -92,12 +92,12 @@ class PlaneFinder {
 
 }  // namespace
 
-void judge_points(VisualMap& map, std::span<const SelectedPatch> patches, const std::vector<bool>& agreed,
+void judge_points(VisualMap& map, std::span<const SelectedPatch> patches, const VisualUpdateResult& update,
                   const PosedPicture& picture) {
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const std::uint32_t index = patches[i].point;
     VisualPoint& point = map.point(index);
-    if (!agreed[i]) {
+    if (!update.agreed(i)) {
       if (++point.bad >= kMaxBad) map.erase(index);
       continue;
     }

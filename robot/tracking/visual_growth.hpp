@@ -5,6 +5,7 @@
 #include "kernels/image/gray_pyramid.hpp"
 #include "robot/tracking/plane_ray.hpp"
 #include "robot/tracking/visual_selection.hpp"
+#include "robot/tracking/visual_update.hpp"
 
 #include <cstdint>
 #include <span>
@@ -21,7 +22,7 @@ struct PosedPicture {
 
 /// Counts for each selected point whether it looked as expected, gives it an observation where the view is a
 /// new one, and forgets points that do not match three times in a row.
-void judge_points(VisualMap& map, std::span<const SelectedPatch> patches, const std::vector<bool>& agreed,
+void judge_points(VisualMap& map, std::span<const SelectedPatch> patches, const VisualUpdateResult& update,
                   const PosedPicture& picture);
 
 /// Adds points where the picture has texture and the map a plane, one at most in each cell that has no point.

@@ -14,8 +14,6 @@ namespace edgesplat::tracking {
 namespace {
 
 constexpr std::size_t kBlockSize = 32;
-/// Cauchy kernel: a patch whose mean squared residual is this many times the usual one counts half.
-constexpr double kRobustScale = 3.0;
 /// Steps smaller than these end a level: about a hundredth of a pixel.
 constexpr double kRotationDone_rad = 3e-5;
 constexpr double kPositionDone_m = 1e-4;
@@ -98,9 +96,9 @@ VisualUpdater::Sums VisualUpdater::sum(double scale, double share) const {
   for (const PatchEquations& one : equations_) {
     if (one.chi_squared < 0.0F) continue;
     const double ratio = static_cast<double>(one.chi_squared) / (kPixels * scale);
-    sums.cost += kRobustScale * std::log1p(ratio / kRobustScale);
+    sums.cost += kMisfitHalf * std::log1p(ratio / kMisfitHalf);
     if (ratio > kMisfitGate) continue;
-    const double weight = share / (scale * (1.0 + ratio / kRobustScale));
+    const double weight = share / (scale * (1.0 + ratio / kMisfitHalf));
     sums.information += weight * one.information;
     sums.gradient += weight * one.gradient;
     ++sums.used;
@@ -164,13 +162,9 @@ VisualUpdateResult VisualUpdater::run(const FilterBelief& prior, const VisualMap
         result.patches = sums.used;
         result.noise_scale = scale;
         result.updated = true;
-        result.agreed.assign(patches.size(), false);
-        result.misfit.assign(patches.size(), -1.0F);
-        for (std::size_t k = 0; k < patches.size(); ++k) {
-          const auto ratio = static_cast<double>(equations_[k].chi_squared) / (kPixels * scale);
-          result.agreed[k] = ratio >= 0.0 && ratio < kRobustScale;
-          result.misfit[k] = static_cast<float>(ratio);
-        }
+        result.misfit.clear();
+        for (std::size_t k = 0; k < patches.size(); ++k)
+          result.misfit.push_back(static_cast<double>(equations_[k].chi_squared) / (kPixels * scale));
       }
       if (step.segment<3>(kRot).norm() < kRotationDone_rad &&
           step.segment<3>(kPos).norm() < kPositionDone_m) {

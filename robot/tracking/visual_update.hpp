@@ -13,7 +13,9 @@
 
 namespace edgesplat::tracking {
 
-/// Patches whose mean squared residual is beyond this many times the usual one are left out.
+/// Patches whose mean squared residual is this many times the usual one count half (Cauchy kernel) ...
+inline constexpr double kMisfitHalf = 3.0;
+/// ... and beyond so many times they are left out.
 inline constexpr double kMisfitGate = 12.0;
 
 struct VisualUpdateConfig {
@@ -35,9 +37,12 @@ struct VisualUpdateResult {
   int iterations = 0;
   int patches = 0;           ///< that counted
   double noise_scale = 1.0;  ///< how much larger the residuals are than the noise explains, as variances
-  std::vector<bool> agreed;  ///< one a selected patch: it looked as expected
   /// One a selected patch: its mean squared residual over the usual one; below 0 out of the picture.
-  std::vector<float> misfit;
+  std::vector<double> misfit;
+  /// It looked as expected.
+  [[nodiscard]] bool agreed(std::size_t patch) const {
+    return misfit[patch] >= 0.0 && misfit[patch] < kMisfitHalf;
+  }
 };
 
 /// The iterated update of the filter with the patches of one picture, coarse to fine (FAST-LIVO2, VI), on
