@@ -140,22 +140,19 @@ void TimeBase::refer_to(Stream stream) {
   for (Device& d : devices_) d.compared.reset();
 }
 
-/// Whether both have moved apart since they were first compared. Only what was measured at the same time
-/// compares: the host's clock drifts as well.
-bool TimeBase::is_lie(Device& d, const Device& reference) {
+/// How far both have moved against the host's clock since they were first compared. Only what was measured at
+/// the same time compares: the host's clock drifts as well.
+std::optional<TimeBase::Moved> TimeBase::compare(Device& d, const Device& reference) {
   if (!d.exact || !d.least.newest_ns) {
     d.compared.reset();
-    return false;
+    return std::nullopt;
   }
   const auto apart_ns =
       static_cast<double>(difference(to_ns(d.least.newest_end), to_ns(reference.least.newest_end)));
-  if (std::abs(apart_ns) > kSameTime_ns) return false;
+  if (std::abs(apart_ns) > kSameTime_ns) return std::nullopt;
   if (!d.compared) d.compared = Compared{*d.least.newest_ns, *reference.least.newest_ns};
-  const auto moved_ns = static_cast<double>(difference(*d.least.newest_ns, d.compared->own_ns));
-  const auto reference_moved_ns =
-      static_cast<double>(difference(*reference.least.newest_ns, d.compared->reference_ns));
-  const double scatter_ns = 1e9 * kScatterShare * std::max(d.jitter_s, reference.jitter_s);
-  return std::abs(moved_ns - reference_moved_ns) > std::max(disagree_limit_ns_, scatter_ns);
+  return Moved{static_cast<double>(difference(*d.least.newest_ns, d.compared->own_ns)),
+               static_cast<double>(difference(*reference.least.newest_ns, d.compared->reference_ns))};
 }
 
 void TimeBase::look_for_lies() {
@@ -165,17 +162,15 @@ void TimeBase::look_for_lies() {
     return;
   }
   for (Device& d : devices_) {
-    if (&d == &reference || !is_lie(d, reference)) continue;
+    if (&d == &reference) continue;
+    const auto moved = compare(d, reference);
+    const double scatter_ns = 1e9 * kScatterShare * std::max(d.jitter_s, reference.jitter_s);
+    if (!moved || std::abs(moved->own_ns - moved->reference_ns) <= std::max(disagree_limit_ns_, scatter_ns))
+      continue;
     ++lies_;
-    // The one that moved more against the host's clock. While both could be believed their stamps told how
-    // much longer its messages are on the way.
-    const Compared first = *d.compared;
-    const auto moved_ns = static_cast<double>(difference(*d.least.newest_ns, first.own_ns));
-    const auto reference_moved_ns =
-        static_cast<double>(difference(*reference.least.newest_ns, first.reference_ns));
-    const bool is_reference = std::abs(moved_ns) <= std::abs(reference_moved_ns);
-    const std::int64_t longer_ns = difference(first.own_ns, first.reference_ns);
-    if (is_reference) {
+    // While both could be believed their stamps told how much longer its messages are on the way.
+    const std::int64_t longer_ns = difference(d.compared->own_ns, d.compared->reference_ns);
+    if (std::abs(moved->own_ns) <= std::abs(moved->reference_ns)) {
       fit_from_now(reference, -longer_ns);
     } else {
       fit_from_now(d, longer_ns);

@@ -77,6 +77,11 @@ class TimeBase {
     std::int64_t own_ns = 0;
     std::int64_t reference_ns = 0;
   };
+  /// How far each has moved since.
+  struct Moved {
+    double own_ns;
+    double reference_ns;
+  };
   struct Device {
     std::optional<sensor::StampSource> source;
     bool exact = false;
@@ -104,7 +109,7 @@ class TimeBase {
   void observe(Device& d, SensorTime stamp, HostTime arrival);
   void fit_from_now(Device& d, std::int64_t latency_ns);
   void look_for_lies();
-  [[nodiscard]] bool is_lie(Device& d, const Device& reference);
+  [[nodiscard]] static std::optional<Moved> compare(Device& d, const Device& reference);
   [[nodiscard]] static std::int64_t offset_ns(const Device& d);
   void refer_to(Stream stream);
 
