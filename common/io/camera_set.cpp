@@ -93,14 +93,20 @@ Status take_size_from_image(const std::filesystem::path& set_file, PosedCamera& 
   geometry::CameraModel& camera = posed.camera;
   if (camera.width_px > 0 && camera.height_px > 0) return {};
   if (posed.image.empty()) return fail(Errc::kCorrupt, posed.name + " has neither a size nor an image");
-  EDGESPLAT_TRY(const auto bytes, read_file(image_path(set_file, posed), kMaxImageBytes));
-  EDGESPLAT_TRY(const ImageHeader header, read_image_header(bytes));
+  EDGESPLAT_TRY(const ImageHeader header, read_image_size(image_path(set_file, posed)));
   camera.width_px = header.width_px;
   camera.height_px = header.height_px;
   return {};
 }
 
 }  // namespace
+
+Result<ImageHeader> read_image_size(const std::filesystem::path& image) {
+  EDGESPLAT_TRY(const auto bytes, read_file(image, kMaxImageBytes));
+  auto header = read_image_header(bytes);
+  if (!header) return fail(header.error().code, image.string() + ": " + header.error().context);
+  return header;
+}
 
 void name_cameras(std::vector<PosedCamera>& cameras) {
   std::set<std::string> taken;

@@ -15,7 +15,6 @@ namespace edgesplat::io {
 namespace {
 
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30U;  // features are most of images.bin
-constexpr std::uint64_t kMaxImageBytes = std::uint64_t{256} << 20U;
 
 bool is_file(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -54,11 +53,9 @@ bool is_scaled(const geometry::CameraModel& camera, const ImageHeader& image) {
 /// Images of another size than the camera's: images_2, images_4 and so on hold the same, smaller.
 Status fit_to_image(PosedCamera& posed) {
   if (!is_file(posed.image)) return {};  // missing images are told by who wants to see them
-  EDGESPLAT_TRY(const auto bytes, read_file(posed.image, kMaxImageBytes));
-  const auto header = read_image_header(bytes);
-  if (!header) return fail(header.error().code, posed.image.string() + ": " + header.error().context);
-  if (is_scaled(posed.camera, *header))
-    posed.camera = posed.camera.scaled_to(header->width_px, header->height_px);
+  EDGESPLAT_TRY(const ImageHeader header, read_image_size(posed.image));
+  if (is_scaled(posed.camera, header))
+    posed.camera = posed.camera.scaled_to(header.width_px, header.height_px);
   return {};
 }
 
