@@ -39,13 +39,6 @@ class Port {
   int number_ = 0;
 };
 
-/// Under a sanitizer the robot may be too slow to follow live sensors: it sheds groups then, as it should.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kMustKeepUp = false;
-#else
-constexpr bool kMustKeepUp = true;
-#endif
-
 class LiveRun : public testing::Test {
  protected:
   LiveRun() {

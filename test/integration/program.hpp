@@ -40,6 +40,8 @@ constexpr int kSlowness = 5;
 #else
 constexpr int kSlowness = 1;
 #endif
+/// Where it is slower the robot may be too slow to follow live sensors: it sheds groups then, as it should.
+constexpr bool kMustKeepUp = kSlowness == 1;
 
 /// Runs to the end, at most kSlowness times `timeout`.
 ProgramResult run_program(const std::string& name, std::vector<std::string> arguments,

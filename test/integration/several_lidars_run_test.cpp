@@ -2,103 +2,40 @@
 // SPDX-License-Identifier: Apache-2.0
 // The robot program with two virtual LiDARs, each with an address, a serial number and a clock of its own,
 // one of which is pulled while it drives.
-#include "test/integration/program.hpp"
+#include "test/integration/live_lidar_run.hpp"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-#include <nlohmann/json.hpp>
-
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <string>
 
 namespace edgesplat::test {
 namespace {
 
-/// Under a sanitizer the robot may be too slow to follow live sensors.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kMustKeepUp = false;
-#else
-constexpr bool kMustKeepUp = true;
-#endif
-
-std::size_t count_of(const std::string& words, const std::string& text) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
-  return count;
-}
-
-/// An address that no other test on this machine has at the same time.
-std::string address(int last) {
-  return "127." + std::to_string(10 + ::getpid() / 256 % 200) + "." + std::to_string(::getpid() % 256) + "." +
-         std::to_string(last);
-}
 std::string serial(int unit) {
   return "47M" + std::string(unit == 0 ? "A" : "B") + std::to_string(1'000'000'000 + ::getpid());
 }
 
 /// The second LiDAR's model; the first is a Mid-360.
-class TwoLidarsRun : public testing::TestWithParam<const char*> {
+class TwoLidarsRun : public LiveLidarRun {
  protected:
-  TwoLidarsRun() {
-    recording_ = shared_recording(std::string("corridor12_mid360_") + GetParam(),
-                                  {"--world", "corridor", "--seconds", "12", "--pedestrians", "2", "--seed",
-                                   "3", "--lidar", std::string("mid360,") + GetParam()});
-    const auto extracted = run_program(
-        "edgesplat", {"inspect", recording_, "--extract", "rig.toml", "--to", in_folder("rig.toml")});
-    EXPECT_EQ(extracted.exit_code, 0) << extracted.err;
+  TwoLidarsRun()
+      : LiveLidarRun(shared_recording(std::string("corridor12_mid360_") + GetParam(),
+                                      {"--world", "corridor", "--seconds", "12", "--pedestrians", "2",
+                                       "--seed", "3", "--lidar", std::string("mid360,") + GetParam()})) {
+    const std::string robot = own_loopback_address();
     std::ofstream config(in_folder("robot.toml"));
     for (const int unit : {0, 1}) {
       config << "[[livox]]\nmodel = \"" << (unit == 0 ? "mid360" : GetParam()) << "\"\nserial = \""
-             << serial(unit) << "\"\nbind_address = \"" << address(1) << "\"\ncontrol_port = 0\n";
+             << serial(unit) << "\"\nbind_address = \"" << robot << "\"\ncontrol_port = 0\n";
     }
   }
-  [[nodiscard]] std::string in_folder(const std::string& name) const { return folder_.path() / name; }
 
-  /// Drives through the recording with these faults of the LiDARs.
   void drive(const std::vector<std::string>& faults) {
-    const std::string frame_port = std::to_string(20'000 + ::getpid() % 10'000);
-    Program robot("edgesplat-robot", {"--live", "--rig", in_folder("rig.toml"), "--config",
-                                      in_folder("robot.toml"), "--server", "off", "--out", in_folder("run"),
-                                      "--record", in_folder("live.mcap"), "--frame-port", frame_port});
-    ASSERT_TRUE(robot.wait_for_stderr("listening unit=1", std::chrono::seconds(20)));
-    std::vector<std::string> stream = {"stream",
-                                       recording_,
-                                       "--lidar",
-                                       std::string("mid360,") + GetParam(),
-                                       "--lidar-serial",
-                                       serial(0) + "," + serial(1),
-                                       "--lidar-address",
-                                       address(10) + "," + address(11),
-                                       "--lidar-drift-ppm",
-                                       "30,-45",
-                                       "--frame-port",
-                                       frame_port,
-                                       "--json"};
-    for (const std::string& fault : faults) {
-      stream.emplace_back("--lidar-fault");
-      stream.push_back(fault);
-    }
-    const auto streamed = run_program("edgesplat", std::move(stream));
-    robot.signal(SIGTERM);
-    const auto run = robot.wait(std::chrono::seconds(60));
-    ASSERT_EQ(streamed.exit_code, 0) << streamed.err;
-    ASSERT_EQ(run.exit_code, 0) << run.err;
-    log_ = run.err;
-    device_ = nlohmann::json::parse(streamed.out);
-    const auto metrics = nlohmann::json::parse(text_of(in_folder("run/robot/metrics.json")));
-    counters_ = metrics["counters"];
-    gauges_ = metrics["gauges"];
-  }
-  [[nodiscard]] double ate_m(const std::string& run) const {
-    const auto accuracy =
-        run_program("edgesplat", {"report", "--run", in_folder(run), "--input", recording_, "--json"});
-    EXPECT_EQ(accuracy.exit_code, 0) << accuracy.err;
-    const auto summary = nlohmann::json::parse(accuracy.out);
-    return summary["ate_rmse_m"].is_number() ? summary["ate_rmse_m"].get<double>() : 1e9;
+    drive_with({"--config", in_folder("robot.toml"), "--record", in_folder("live.mcap")}, "listening unit=1",
+               {"--lidar", std::string("mid360,") + GetParam(), "--lidar-serial", serial(0) + "," + serial(1),
+                "--lidar-address", own_loopback_address() + "," + own_loopback_address(), "--lidar-drift-ppm",
+                "30,-45"},
+               faults);
   }
   /// How long a LiDAR was silent, by the line that says that its data are back.
   [[nodiscard]] double silence_s(const std::string& words) const {
@@ -106,18 +43,10 @@ class TwoLidarsRun : public testing::TestWithParam<const char*> {
     return at == std::string::npos ? 1e9 : std::strtod(log_.c_str() + at + words.size(), nullptr);
   }
   [[nodiscard]] std::uint64_t counter(const std::string& name) const {
-    EXPECT_TRUE(counters_.contains(name)) << name;
-    return counters_.value(name, std::uint64_t{0});
+    const nlohmann::json& counters = metrics_.at("counters");
+    EXPECT_TRUE(counters.contains(name)) << name;
+    return counters.value(name, std::uint64_t{0});
   }
-
-  std::string recording_;
-  std::string log_;
-  nlohmann::json device_;
-  nlohmann::json counters_;
-  nlohmann::json gauges_;
-
- private:
-  TempDir folder_;
 };
 
 TEST_P(TwoLidarsRun, AreFoundStartedTrackedAndRecordedEachByItself) {
@@ -133,10 +62,10 @@ TEST_P(TwoLidarsRun, AreFoundStartedTrackedAndRecordedEachByItself) {
   }
   EXPECT_EQ(counter("livox.points.packets"), device_["points_sent"]);
   EXPECT_EQ(counter("sync.points.outs") + counter("sync.points_1.outs"), 0U);
-  EXPECT_EQ(gauges_["sync.points.disciplined"].get<double>(), 1.0);
-  EXPECT_EQ(gauges_["sync.points_1.disciplined"].get<double>(), 1.0);
+  EXPECT_EQ(metrics_["gauges"]["sync.points.disciplined"].get<double>(), 1.0);
+  EXPECT_EQ(metrics_["gauges"]["sync.points_1.disciplined"].get<double>(), 1.0);
   if (!kMustKeepUp) return;
-  const double live_m = ate_m("run");
+  const double live_m = ate_m();
   std::printf("live, two: ATE %.1f mm\n", 1e3 * live_m);
   EXPECT_LT(live_m, 0.02);
   const auto replayed = run_program(
@@ -164,7 +93,7 @@ TEST_P(TwoLidarsRun, ThePulledOneIsMissedByNobodyAndComesBack) {
   const double silent_s = silence_s("LiDAR 1: after ");
   std::printf("the second was pulled for 2 s and silent for %.2f s\n", silent_s);
   EXPECT_LT(silent_s, 2.0 + 3.0);
-  const double live_m = ate_m("run");
+  const double live_m = ate_m();
   std::printf("live, the second pulled for 2 s: ATE %.1f mm\n", 1e3 * live_m);
   EXPECT_LT(live_m, 0.02);
 }
@@ -177,7 +106,7 @@ TEST_P(TwoLidarsRun, WithoutTheFirstAndItsImuTheSecondCarriesTheTrack) {
   EXPECT_EQ(counter("sync.points.outs"), 1U);
   EXPECT_EQ(count_of("LiDAR fell silent", log_), 1U) << log_;
   if (!kMustKeepUp) return;
-  const double live_m = ate_m("run");
+  const double live_m = ate_m();
   std::printf("live, the first and its IMU pulled for 2 s: ATE %.1f mm\n", 1e3 * live_m);
   EXPECT_LT(live_m, 0.10);
 }
