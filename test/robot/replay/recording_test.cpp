@@ -267,6 +267,19 @@ TEST(Recording, ADiskThatGetsFullEndsItWhole) {
   EXPECT_TRUE(source->report().complete) << source->report().why;
 }
 
+/// What an Avia sends at a time: points, an IMU sample, an answer.
+void feed_avia(Recorder& recorder, int index, std::size_t unit) {
+  std::vector<std::byte> records;
+  for (int i = 0; i < 96; ++i) livox::append_point_mm(records, 1000 + i, 2000, 3000);
+  const auto imu = livox::imu_record(std::array<float, 6>{0.1F, 0, 0, 0, 0, 1});
+  const auto stamp_ns = static_cast<std::uint64_t>(kStart_ns + index * 400'000);
+  recorder.on_datagram(
+      {livox::Channel::kPoints, arrival_of(index), livox::sdk1_packet(2, 1, stamp_ns, records)}, unit);
+  recorder.on_datagram({livox::Channel::kImu, arrival_of(index), livox::sdk1_packet(6, 1, stamp_ns, imu)},
+                       unit);
+  recorder.on_datagram({livox::Channel::kControl, arrival_of(index), imu}, unit);
+}
+
 TEST(Recording, AnAviasPacketsAreReplayedAsSuch) {
   const test::TempDir folder;
   const auto path = folder.path() / "avia.mcap";
@@ -274,17 +287,7 @@ TEST(Recording, AnAviasPacketsAreReplayedAsSuch) {
   config.lidar_protocols = {livox::Protocol::kSdk1};
   auto recorder = Recorder::create(path, sensor::print_rig(small_rig()), "", config);
   ASSERT_TRUE(recorder.has_value());
-  std::vector<std::byte> records;
-  for (int i = 0; i < 96; ++i) livox::append_point_mm(records, 1000 + i, 2000, 3000);
-  const auto imu = livox::imu_record(std::array<float, 6>{0.1F, 0, 0, 0, 0, 1});
-  for (int index = 0; index < 10; ++index) {
-    const auto stamp_ns = static_cast<std::uint64_t>(kStart_ns + index * 400'000);
-    (*recorder)->on_datagram(
-        {livox::Channel::kPoints, arrival_of(index), livox::sdk1_packet(2, 1, stamp_ns, records)});
-    (*recorder)->on_datagram(
-        {livox::Channel::kImu, arrival_of(index), livox::sdk1_packet(6, 1, stamp_ns, imu)});
-    (*recorder)->on_datagram({livox::Channel::kControl, arrival_of(index), imu});
-  }
+  for (int index = 0; index < 10; ++index) feed_avia(**recorder, index, 0);
   ASSERT_TRUE((*recorder)->finish().has_value());
   auto source = ReplaySource::open(path);
   ASSERT_TRUE(source.has_value()) << source.error().context;
@@ -303,17 +306,9 @@ TEST(Recording, SeveralLidarsHaveTopicsOfTheirOwn) {
   config.lidar_protocols = {livox::Protocol::kSdk2, livox::Protocol::kSdk1};
   auto recorder = Recorder::create(path, sensor::print_rig(rig), "", config);
   ASSERT_TRUE(recorder.has_value());
-  std::vector<std::byte> records;
-  for (int i = 0; i < 96; ++i) livox::append_point_mm(records, 1000 + i, 2000, 3000);
-  const auto imu = livox::imu_record(std::array<float, 6>{0.1F, 0, 0, 0, 0, 1});
   for (int index = 0; index < 10; ++index) {
-    const auto stamp_ns = static_cast<std::uint64_t>(kStart_ns + index * 400'000);
     (*recorder)->on_datagram({livox::Channel::kPoints, arrival_of(index), point_datagram(index)});
-    (*recorder)->on_datagram(
-        {livox::Channel::kPoints, arrival_of(index), livox::sdk1_packet(2, 1, stamp_ns, records)}, 1);
-    (*recorder)->on_datagram(
-        {livox::Channel::kImu, arrival_of(index), livox::sdk1_packet(6, 1, stamp_ns, imu)}, 1);
-    (*recorder)->on_datagram({livox::Channel::kControl, arrival_of(index), imu}, 1);
+    feed_avia(**recorder, index, 1);
   }
   ASSERT_TRUE((*recorder)->finish().has_value());
   auto reader = io::McapReader::open(path);
