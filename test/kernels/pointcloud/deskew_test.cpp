@@ -4,9 +4,11 @@
 
 #include "common/geometry/so3.hpp"
 #include "test/support/random.hpp"
+#include "test/support/simd_limit.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -67,6 +69,29 @@ TEST(Deskew, TimesOutsideTheMotionTakeItsEnds) {
       moved[0].cast<double>().isApprox(motion.front().end_from_sensor * Eigen::Vector3d(1, 0, 0), 1e-5));
   EXPECT_TRUE(
       moved[1].cast<double>().isApprox(motion.back().end_from_sensor * Eigen::Vector3d(1, 0, 0), 1e-5));
+}
+
+// Trajectories are compared bit by bit between machines: a point must not depend on the vector it came in.
+TEST(Deskew, GivesTheSameBitsWithEveryInstructionSet) {
+  test::Random random(2);
+  std::vector<Eigen::Vector3f> points;
+  std::vector<std::int32_t> times;
+  for (int i = 0; i < 1003; ++i) {
+    points.push_back(random.vector(50.0).cast<float>());
+    times.push_back(i * 99'991 + 1);  // never just at a knot, where either side would do
+  }
+  std::vector<Eigen::Vector3f> alone(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    deskew({&points[i], 1}, {&times[i], 1}, knots(21), {&alone[i], 1});
+  for (const core::SimdLevel level : core::available_simd_levels()) {
+    const test::SimdLimit limit(level);
+    std::vector<Eigen::Vector3f> moved(points.size());
+    deskew(points, times, knots(21), moved);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      ASSERT_EQ(std::memcmp(moved[i].data(), alone[i].data(), sizeof(Eigen::Vector3f)), 0)
+          << core::to_string(level) << ' ' << i;
+    }
+  }
 }
 
 TEST(Deskew, AnEmptyCloudAndNotANumberPassThrough) {
