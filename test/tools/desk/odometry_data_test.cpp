@@ -79,7 +79,7 @@ struct DataSet {
   const char* name;
   std::size_t scans;
   bool as_fired;     ///< stored as the rays were fired, not as of one moment
-  bool points_tell;  ///< fast enough for the points to lie better on the map with the right times
+  bool points_tell;  ///< fast and long enough for the points to lie better on the map with the right times
   double ate_max_m;  ///< 0: no trajectory to compare with
   double path_min_m;
   double path_max_m;
@@ -103,7 +103,8 @@ TEST_P(OdometryOnRealScans, StaysWithinItsErrorAndTakesPointsAtTheirTimes) {
     EXPECT_LT(ate_m, data.ate_max_m);
   }
   // The points of a fast car say themselves when they were measured: with the right times they lie better on
-  // the map. In the stop and go of drive 0052 they do not.
+  // the map. In the stop and go of drive 0052 they do not, and of 16 scans the last bits decide (with the
+  // wrong times 49 to 54 mm).
   const auto other = run(folder.path(), data.as_fired ? ScanTiming::kInstant : ScanTiming::kAzimuth);
   ASSERT_TRUE(other.has_value()) << other.error().context;
   RecordProperty("residual_m", std::to_string(residual_m(*odometry)));
@@ -118,11 +119,11 @@ TEST_P(OdometryOnRealScans, StaysWithinItsErrorAndTakesPointsAtTheirTimes) {
 // scans of drive 0052 (steps of 0.10, 0.26, 0.15 m where the car rolls at an even 0.24 m a scan): they lie
 // 0.08 m and 0.09 m from one made of the scans as they were fired, from which our trajectory is 0.01 and 0.02
 // m (`tools/bench --peers`).
-INSTANTIATE_TEST_SUITE_P(Kitti, OdometryOnRealScans,
-                         testing::Values(DataSet{"kitti_drive0005_80scans", 80, true, true, 0.10, 29.6, 30.4},
-                                         DataSet{"kitti_drive0052_78scans_images", 77, true, false, 0.10, 7.8,
-                                                 8.3},
-                                         DataSet{"kitti_odo00_16scans", 16, false, true, 0.0, 11.64, 11.92}));
+INSTANTIATE_TEST_SUITE_P(
+    Kitti, OdometryOnRealScans,
+    testing::Values(DataSet{"kitti_drive0005_80scans", 80, true, true, 0.10, 29.6, 30.4},
+                    DataSet{"kitti_drive0052_78scans_images", 77, true, false, 0.10, 7.8, 8.3},
+                    DataSet{"kitti_odo00_16scans", 16, false, false, 0.0, 11.64, 11.92}));
 
 /// With the defaults, of which nothing is chosen for a recording.
 TEST(OdometryOnDrives, AreWithinFiveCentimetresOfAReferenceByDefault) {
