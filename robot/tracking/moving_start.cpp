@@ -54,7 +54,9 @@ bool Tracker::MovingStart::sees_rest() const {
   if (!odometry_ || !odometry_->belief) return false;
   const TrackingCounters& seen = odometry_->counters;
   if (seen.groups - seen.coasted_groups < kGroupsToSeeRest) return false;
-  return odometry_->belief->state.velocity_in_odom_mps.norm() < kRestSpeed_mps;
+  // Along a tunnel the speed is what it was first thought to be.
+  const Eigen::Vector3d& velocity_mps = odometry_->belief->state.velocity_in_odom_mps;
+  return (velocity_mps - odometry_->unseen_steps * velocity_mps).norm() < kRestSpeed_mps;
 }
 
 void Tracker::MovingStart::forget() {
@@ -86,8 +88,7 @@ void Tracker::MovingStart::remember(const sync::MeasureGroup& group, const Track
     poses_.erase(poses_.begin());
   EarlyScan scan{tracked.odom_from_body, tracked.pose_covariance, {}, {}};
   const auto points = odometry_->sweep.points_in_body_m();
-  for (const std::uint32_t i :
-       odometry_->map_downsampler.run(points, static_cast<float>(config_.map_voxel_m))) {
+  for (const std::uint32_t i : odometry_->sweep.thinned(config_.map_voxel_m)) {
     scan.points_in_body_m.push_back(points[i]);
     scan.units.push_back(odometry_->sweep.units()[i]);
   }

@@ -41,7 +41,8 @@ class Tracker::MovingStart {
   /// A group with its good IMU samples; the start once there is one.
   std::optional<MovingStartResult> add(const sync::MeasureGroup& group,
                                        const std::vector<sync::GroupImu>& imu);
-  /// The scans show no motion either. False without scans: a body that rolls smoothly feels like one at rest.
+  /// The scans show no motion either, where they show anything. False without scans: a body that rolls
+  /// smoothly feels like one at rest.
   [[nodiscard]] bool sees_rest() const;
   [[nodiscard]] std::int64_t refused() const { return refused_; }
   [[nodiscard]] AlignmentVerdict last_verdict() const { return last_verdict_; }

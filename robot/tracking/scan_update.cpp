@@ -26,6 +26,24 @@ constexpr double kPositionDone_m = 2e-4;
 constexpr float kReachSigma = 3.0F;
 
 using Matrix6f = Eigen::Matrix<float, 6, 6>;
+using Vector6f = Eigen::Matrix<float, 6, 1>;
+
+/// The sums of PlaneResiduals over one block: few enough points for 32 bits.
+struct BlockSums {
+  Matrix6f information = Matrix6f::Zero();
+  Vector6f gradient = Vector6f::Zero();
+  Matrix6f noise = Matrix6f::Zero();
+  int used = 0;
+  int matched = 0;
+  double squares_m2 = 0.0;
+
+  [[nodiscard]] PlaneResiduals widened() const {
+    return {{information.cast<double>(), gradient.cast<double>(), noise.cast<double>()},
+            used,
+            matched,
+            squares_m2};
+  }
+};
 
 /// What all residuals at one pose share.
 struct PoseView {
@@ -92,15 +110,15 @@ MatchedPoint match_point(std::size_t point, const PoseView& pose, const ScanView
 // All points on a plane see the plane's error alike. Of m residuals with own variances s and a common one c,
 // the mean has the variance s / m + c: as if each had s + m c and they were independent.
 void accumulate(const MatchedPoint& line, float sharers, const Matrix6f& row_covariance, float gate_squared,
-                PlaneResiduals& sums) {
+                BlockSums& sums) {
   const float chi_squared = line.residual_m * line.residual_m / line.spread_m2;
   if (!(chi_squared < gate_squared)) return;
   const float variance_m2 = line.point_variance_m2 + sharers * line.plane_variance_m2;
   const float weight = 1.0F / (variance_m2 * (1.0F + chi_squared / (kRobustSigma * kRobustSigma)));
-  const Vector6d row = line.row.cast<double>();
-  sums.equations.information.noalias() += static_cast<double>(weight) * row * row.transpose();
-  sums.equations.gradient += static_cast<double>(weight * line.residual_m) * row;
-  sums.equations.noise += (weight * row_covariance).cast<double>();
+  const Vector6f weighted = weight * line.row;
+  sums.information.noalias() += weighted * line.row.transpose();
+  sums.gradient += line.residual_m * weighted;
+  sums.noise += weight * row_covariance;
   ++sums.used;
   sums.squares_m2 += static_cast<double>(line.residual_m) * static_cast<double>(line.residual_m);
 }
@@ -161,13 +179,15 @@ PlaneResiduals ScanUpdater::evaluate(const geometry::RigidTransform& odom_from_b
   count_sharers(map);
   partial_.assign(BlockLoop::blocks(points.size(), kBlockSize), PlaneResiduals{});
   loop_.run(points.size(), kBlockSize, [&](std::size_t block, std::size_t first, std::size_t last) {
+    BlockSums sums;
     for (std::size_t i = first; i < last; ++i) {
       const MatchedPoint& line = matched_[i];
       if (line.plane == nullptr) continue;
-      ++partial_[block].matched;
+      ++sums.matched;
       accumulate(line, static_cast<float>(sharers_[line.plane_id]),
-                 row_covariance(*line.plane, points[i], pose), gate_squared, partial_[block]);
+                 row_covariance(*line.plane, points[i], pose), gate_squared, sums);
     }
+    partial_[block] = sums.widened();
   });
   PlaneResiduals total;
   for (const PlaneResiduals& part : partial_) {

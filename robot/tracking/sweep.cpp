@@ -67,6 +67,7 @@ void Sweep::deskew(std::span<const PathKnot> path, const geometry::RigidTransfor
     knots.push_back({clamp_ns(end_ - knot.stamp), body_from_odom * knot.odom_from_body * body_from_lidar_});
   }
   if (!has_point_times_) knots = {{0, body_from_lidar_}};
+  for (Thinned& thinned : thinned_) thinned.is_current = false;
   points_in_body_m_.resize(points_in_lidar_m_.size());
   const std::span<const Eigen::Vector3f> points = points_in_lidar_m_;
   const std::span<const std::int32_t> times = before_end_ns_;
@@ -76,6 +77,17 @@ void Sweep::deskew(std::span<const PathKnot> path, const geometry::RigidTransfor
     pointcloud::deskew(points.subspan(first, count), times.subspan(first, count), knots,
                        moved.subspan(first, count));
   });
+}
+
+std::span<const std::uint32_t> Sweep::thinned(double edge_m) {
+  auto found = std::find_if(thinned_.begin(), thinned_.end(),
+                            [&](const Thinned& thinned) { return thinned.edge_m == edge_m; });
+  if (found == thinned_.end()) found = thinned_.insert(thinned_.end(), Thinned{edge_m, {}, {}, false});
+  if (!found->is_current) {
+    found->kept = found->downsampler.run(points_in_body_m_, static_cast<float>(edge_m));
+    found->is_current = true;
+  }
+  return found->kept;
 }
 
 std::vector<DeskewedPoint> Sweep::deskewed(const geometry::RigidTransform& target_from_body) const {

@@ -4,6 +4,7 @@
 
 #include "common/sensor/rig.hpp"
 #include "kernels/pointcloud/deskew.hpp"
+#include "kernels/pointcloud/voxel_downsample.hpp"
 #include "robot/sync/measure_group.hpp"
 #include "robot/tracking/block_loop.hpp"
 #include "robot/tracking/propagation.hpp"
@@ -35,6 +36,9 @@ class Sweep {
   [[nodiscard]] HostTime middle() const { return middle_; }
 
   [[nodiscard]] std::span<const Eigen::Vector3f> points_in_body_m() const { return points_in_body_m_; }
+  /// Indices of one point of every cell of a grid in the body frame (pointcloud::VoxelDownsampler). Found
+  /// once for each edge and deskewing; valid until the next deskewing.
+  [[nodiscard]] std::span<const std::uint32_t> thinned(double edge_m);
   /// Which of the rig's LiDARs measured each point.
   [[nodiscard]] std::span<const std::uint8_t> units() const { return units_; }
   /// The points moved on to another frame, with their reflectivity.
@@ -47,6 +51,12 @@ class Sweep {
     Eigen::Matrix3f rotation;  ///< from this LiDAR's frame to the first one's
     Eigen::Vector3f translation_m;
   };
+  struct Thinned {
+    double edge_m;
+    pointcloud::VoxelDownsampler downsampler;
+    std::span<const std::uint32_t> kept;
+    bool is_current;
+  };
   geometry::RigidTransform body_from_lidar_;  ///< the first
   std::vector<Unit> units_of_rig_;
   BlockLoop& loop_;
@@ -58,6 +68,7 @@ class Sweep {
   std::vector<std::int32_t> before_end_ns_;
   std::vector<float> reflectivity_;
   std::vector<Eigen::Vector3f> points_in_body_m_;
+  std::vector<Thinned> thinned_;  ///< an entry for every edge that was ever asked for: two at most
 };
 
 }  // namespace edgesplat::tracking

@@ -152,7 +152,7 @@ Prediction Tracker::Impl::predict(const sync::MeasureGroup& group) {
 
 void Tracker::Impl::pick_scan_points() {
   const auto points = sweep.points_in_body_m();
-  const auto kept = scan_downsampler.run(points, static_cast<float>(config.scan_voxel_m));
+  const auto kept = sweep.thinned(config.scan_voxel_m);
   const auto wanted = static_cast<std::size_t>(config.max_scan_points);
   const std::size_t count = std::min(kept.size(), wanted);
   scan_points_m.clear();
@@ -296,6 +296,7 @@ Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
   }
   belief = result.belief;
   belief_time = at;
+  unseen_steps = result.observed.frozen_steps;
   last_end = group.end;
   const VisualUpdateResult picture = see(group, result);
   const GaussianUpdateResult gaussians = look_at_gaussians(group, result);

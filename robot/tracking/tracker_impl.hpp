@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "kernels/pointcloud/voxel_downsample.hpp"
 #include "robot/tracking/block_loop.hpp"
 #include "robot/tracking/free_motion.hpp"
 #include "robot/tracking/gaussian_update.hpp"
@@ -103,15 +102,14 @@ struct Tracker::Impl {
   std::optional<GaussianUpdater> gaussian_updater;
   std::shared_ptr<GaussianView> gaussian_view;
   int pictures_since_look = 0;
-  bool with_imu;               ///< decided at the first pose, then fixed
-  int groups_without_imu = 0;  ///< in a row, before the first pose
-  int scans_to_redraw = 0;     ///< of a start in motion
+  bool with_imu;                                           ///< decided at the first pose, then fixed
+  Eigen::Matrix3d unseen_steps = Eigen::Matrix3d::Zero();  ///< projector on what the last scan did not see
+  int groups_without_imu = 0;                              ///< in a row, before the first pose
+  int scans_to_redraw = 0;                                 ///< of a start in motion
   std::optional<HostTime> last_end;
   std::optional<FilterBelief> belief;
-  HostTime belief_time{};           ///< last_end, or the middle of its points without an IMU
-  std::vector<sync::GroupImu> imu;  ///< the group's good samples; the newest ever when it has none
-  pointcloud::VoxelDownsampler scan_downsampler;
-  pointcloud::VoxelDownsampler map_downsampler;
+  HostTime belief_time{};                      ///< last_end, or the middle of its points without an IMU
+  std::vector<sync::GroupImu> imu;             ///< the group's good samples; the newest ever when it has none
   std::vector<Eigen::Vector3f> scan_points_m;  ///< matched against the map
   std::vector<std::uint8_t> scan_units;        ///< which LiDAR measured them
   std::vector<MapPoint> map_points;

@@ -104,7 +104,7 @@ void Tracker::Impl::extend_map(const ScanUpdateResult& result) {
     if (was_bent) map = PlaneMap(map_config(config));
   }
   const auto points = sweep.points_in_body_m();
-  const auto kept = map_downsampler.run(points, static_cast<float>(config.map_voxel_m));
+  const auto kept = sweep.thinned(config.map_voxel_m);
   insert_points(points, sweep.units(), kept, belief->state.odom_from_body,
                 belief->covariance.topLeftCorner<6, 6>());
   map.slide(belief->state.odom_from_body.translation_m);

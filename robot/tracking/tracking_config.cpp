@@ -49,6 +49,8 @@ void describe(config::ConfigReader& reader, TrackingConfig& config) {
                "farther points are left out of matching and map");
   reader.field("visual", config.visual,
                "pictures update the pose after the LiDAR, where the rig has a camera");
+  reader.field("visual_refine_normals", config.visual_refine_normals,
+               "visual points take their normals anew from the LiDAR's planes as these learn");
   reader.field("visual_map_max_mb", config.visual_map_max_mb, {1, 4096},
                "the farthest visual points are forgotten above this size");
   reader.field("gaussian_every", config.gaussian_every, {0, 1000},

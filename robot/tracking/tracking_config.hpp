@@ -28,8 +28,9 @@ struct TrackingConfig {
       1.0;  ///< least unrest of the motion without IMU, adapted up, (0, 100]
   double motion_turn_radps2_per_sqrt_hz = 0.5;  ///< the same for rotation, (0, 100]
 
-  double scan_voxel_m = 0.2;   ///< thinning of the points that are matched, [0.01, 5]
-  double map_voxel_m = 0.1;    ///< thinning of the points that enter the map, [0.01, 5]
+  double scan_voxel_m = 0.2;  ///< thinning of the points that are matched, [0.01, 5]
+  double map_voxel_m =
+      0.2;  ///< thinning of the points that enter the map; shared where it is the same, [0.01, 5]
   int max_scan_points = 3000;  ///< more matched points than this are thinned evenly, [100, 100000]
 
   double root_voxel_m = 1.0;         ///< edge of the map's coarsest cells, [0.1, 10]
@@ -46,7 +47,8 @@ struct TrackingConfig {
   int min_residuals = 30;              ///< with fewer the group coasts, [6, 10000]
   double max_range_m = 120.0;          ///< farther points are left out of matching and map, [1, 1000]
 
-  bool visual = true;          ///< pictures update the pose after the LiDAR, where the rig has a camera
+  bool visual = true;  ///< pictures update the pose after the LiDAR, where the rig has a camera
+  bool visual_refine_normals = false;  ///< visual points take their normals anew from the planes
   int visual_map_max_mb = 32;  ///< the farthest visual points are forgotten above this size, [1, 4096]
 
   int gaussian_every =

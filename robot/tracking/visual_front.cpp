@@ -121,7 +121,8 @@ void VisualFront::extend(const FilterBelief& belief, const PlaneMap& planes) {
     const auto seen = look_at(view, map_.point(patches_[i].point).p_in_odom_m);
     if (seen) occupied[static_cast<std::size_t>(grid_.cell_of(seen->pixel))] = true;
   }
-  if (last_.updated) judge_points(map_, patches_, last_, picture);
+  if (last_.updated)
+    judge_points(map_, config_.visual_refine_normals ? &planes : nullptr, patches_, last_, picture);
   add_points(map_, planes, picture, grid_, depths_, occupied, pictures_++);
   map_.slide(view.camera_in_odom_m, config_.map_half_extent_m);
 }

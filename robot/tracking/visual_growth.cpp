@@ -3,6 +3,7 @@
 #include "robot/tracking/visual_growth.hpp"
 
 #include "kernels/image/corner.hpp"
+#include "robot/tracking/visual_normal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -92,8 +93,8 @@ class PlaneFinder {
 
 }  // namespace
 
-void judge_points(VisualMap& map, std::span<const SelectedPatch> patches, const VisualUpdateResult& update,
-                  const PosedPicture& picture) {
+void judge_points(VisualMap& map, const PlaneMap* planes, std::span<const SelectedPatch> patches,
+                  const VisualUpdateResult& update, const PosedPicture& picture) {
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const std::uint32_t index = patches[i].point;
     VisualPoint& point = map.point(index);
@@ -103,6 +104,7 @@ void judge_points(VisualMap& map, std::span<const SelectedPatch> patches, const 
     }
     point.bad = 0;
     point.good = static_cast<std::uint8_t>(std::min(point.good + 1, 255));
+    if (planes != nullptr) refine_normal(map, point, *planes);
     const auto seen = look_at(picture.view, point.p_in_odom_m);
     if (!seen || !is_new_view(map, point, *seen, picture.view.camera_in_odom_m)) continue;
     if (const auto look = observe(picture, seen->pixel.cast<float>(), point)) map.observe(index, *look);

@@ -21,9 +21,9 @@ struct PosedPicture {
 };
 
 /// Counts for each selected point whether it looked as expected, gives it an observation where the view is a
-/// new one, and forgets points that do not match three times in a row.
-void judge_points(VisualMap& map, std::span<const SelectedPatch> patches, const VisualUpdateResult& update,
-                  const PosedPicture& picture);
+/// new one, and forgets points that do not match three times in a row. With `planes`, normals are refined.
+void judge_points(VisualMap& map, const PlaneMap* planes, std::span<const SelectedPatch> patches,
+                  const VisualUpdateResult& update, const PosedPicture& picture);
 
 /// Adds points where the picture has texture and the map a plane, one at most in each cell that has no point.
 /// `round` varies from picture to picture which cells come first. Returns how many were added.

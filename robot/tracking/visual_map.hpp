@@ -60,6 +60,7 @@ class VisualMap {
   [[nodiscard]] std::uint32_t slots() const { return slots_; }
   [[nodiscard]] VisualPoint& point(std::uint32_t index) { return points_[index]; }
   [[nodiscard]] const VisualPoint& point(std::uint32_t index) const { return points_[index]; }
+  [[nodiscard]] VisualObservation& observation(std::uint32_t index) { return observations_[index]; }
   [[nodiscard]] const VisualObservation& observation(std::uint32_t index) const {
     return observations_[index];
   }
