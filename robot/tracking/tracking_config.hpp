@@ -28,9 +28,8 @@ struct TrackingConfig {
       1.0;  ///< least unrest of the motion without IMU, adapted up, (0, 100]
   double motion_turn_radps2_per_sqrt_hz = 0.5;  ///< the same for rotation, (0, 100]
 
-  double scan_voxel_m = 0.2;  ///< thinning of the points that are matched, [0.01, 5]
-  double map_voxel_m =
-      0.2;  ///< thinning of the points that enter the map; shared where it is the same, [0.01, 5]
+  double scan_voxel_m = 0.2;   ///< thinning of the points that are matched, [0.01, 5]
+  double map_voxel_m = 0.2;    ///< thinning of those that enter the map: done once where equal, [0.01, 5]
   int max_scan_points = 3000;  ///< more matched points than this are thinned evenly, [100, 100000]
 
   double root_voxel_m = 1.0;         ///< edge of the map's coarsest cells, [0.1, 10]
