@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/base/line_vector.hpp"
 #include "common/gaussian/gaussian_cloud.hpp"
 #include "common/time/clock.hpp"
 #include "kernels/mapping/optimiser_options.hpp"
@@ -108,8 +109,8 @@ class Optimiser {
   Optimiser(const OptimiserOptions& options, const Clock& clock);
 
   struct Pictures {
-    std::vector<float> colour, depth_sum_m, alpha, seen;
-    std::vector<float> by_colour, by_depth_sum, by_alpha;
+    LineVector<float> colour, depth_sum_m, alpha, seen;
+    LineVector<float> by_colour, by_depth_sum, by_alpha;
   };
   void size_pictures(const TrainingView& view);
   void compare(const TrainingView& view, StepReport& report);
