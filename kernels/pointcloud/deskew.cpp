@@ -68,8 +68,9 @@ std::size_t move_vectors(const MotionSegment& segment, const float* points, cons
     const auto since_ns = hn::Sub(first_ns, hn::LoadU(Ints(), before_end_ns + i));
     const Lanes s =
         hn::Min(hn::Max(hn::Mul(hn::ConvertTo(d, since_ns), per_ns), hn::Zero(d)), hn::Set(d, 1.0F));
-    Lanes3 p;
-    hn::LoadInterleaved3(d, points + 3 * i, p.x, p.y, p.z);
+    Lanes x, y, z;
+    hn::LoadInterleaved3(d, points + 3 * i, x, y, z);
+    const Lanes3 p = {x, y, z};
     const Lanes3 v = times(turn, s);
     const Lanes3 first = cross(v, p);
     const Lanes3 second = cross(v, first);
