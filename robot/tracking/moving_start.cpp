@@ -47,6 +47,8 @@ Eigen::Matrix<double, 6, 6> with_floor(const Eigen::Matrix<double, 6, 6>& covari
 Tracker::MovingStart::MovingStart(const TrackingConfig& config, const sensor::Rig& rig)
     : config_(config), rig_(rig) {
   config_.visual = false;
+  config_.lidar_delay_sigma_s = config_.camera_delay_sigma_s = 0.0;
+  config_.lidar_turn_sigma_rad = config_.lidar_step_sigma_m = 0.0;
 }
 Tracker::MovingStart::~MovingStart() = default;
 

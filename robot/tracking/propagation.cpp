@@ -102,6 +102,8 @@ void propagate(FilterBelief& belief, const MotionInput& input, const MotionNoise
   const ErrorMatrix f = transition(belief.state, input, dt_s);
   belief.state = integrate(belief.state, input, dt_s);
   belief.covariance = (f * belief.covariance * f.transpose()).eval();
+  // No motion changes the calibration.
+  if (belief.calibration) belief.calibration->with_state = (f * belief.calibration->with_state).eval();
   const auto add = [&](int index, double density) {
     belief.covariance.diagonal().segment<3>(index).array() += density * density * dt_s;
   };

@@ -69,6 +69,10 @@ void hold_velocity(FilterBelief& belief, const Eigen::Matrix3d& directions_in_od
     const double residual = -direction.dot(belief.state.velocity_in_odom_mps);
     belief.state = plus(belief.state, column * (residual / variance));
     belief.covariance -= column * column.transpose() / variance;
+    // What the rest tells of the calibration, it tells through errors that both share: only considered.
+    if (belief.calibration)
+      belief.calibration->with_state -=
+          column * (direction.transpose() * belief.calibration->with_state.middleRows<3>(kVel)) / variance;
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/tracking/scan_update.hpp"
 
+#include "common/base/check.hpp"
 #include "robot/tracking/iterated_update.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -123,13 +124,39 @@ void accumulate(const MatchedPoint& line, float sharers, const Matrix6f& row_cov
   sums.squares_m2 += static_cast<double>(line.residual_m) * static_cast<double>(line.residual_m);
 }
 
-/// Projector on the states that a frozen direction holds still: the pose along it, and the velocity.
-ErrorMatrix frozen_states(const ObservedPart& observed) {
-  ErrorMatrix frozen = ErrorMatrix::Zero();
-  frozen.block<3, 3>(kRot, kRot) = observed.frozen_turns;
-  frozen.block<3, 3>(kPos, kPos) = observed.frozen_steps;
-  frozen.block<3, 3>(kVel, kVel) = observed.frozen_steps;
+/// Projector on the states that a frozen direction holds still: the pose along it, and the velocity; and on
+/// what the motion does not show of the calibration.
+template <int Errors>
+ErrorsMatrix<Errors> frozen_states(const ObservedPart& observed, const ScanView& scan) {
+  ErrorsMatrix<Errors> frozen = ErrorsMatrix<Errors>::Zero();
+  frozen.template block<3, 3>(kRot, kRot) = observed.frozen_turns;
+  frozen.template block<3, 3>(kPos, kPos) = observed.frozen_steps;
+  frozen.template block<3, 3>(kVel, kVel) = observed.frozen_steps;
+  if constexpr (Errors == kFullSize)
+    frozen.template bottomRightCorner<kCalibrationErrors, kCalibrationErrors>() = scan.calibration->frozen;
   return frozen;
+}
+
+template <int Errors>
+Correction<Errors> correct_by(const ShiftedPrior<Errors>& prior, const ObservedPart& observed,
+                              const ScanView& scan) {
+  if constexpr (Errors == kFullSize) {
+    return correct(prior, scan.calibration->rows(), observed.information, observed.gradient,
+                   lasting_pose_errors());
+  } else {
+    return correct(prior, observed.information, observed.gradient);
+  }
+}
+
+/// The doubt about where the points are, the calibration's included.
+template <int Errors>
+Matrix6d doubt_of(const ErrorsMatrix<Errors>& covariance, const ScanView& scan) {
+  if constexpr (Errors == kFullSize) {
+    const auto rows = scan.calibration->rows();
+    return rows * covariance * rows.transpose();
+  } else {
+    return covariance.template topLeftCorner<6, 6>();
+  }
 }
 
 ScanUpdateResult without_update(const FilterBelief& prior, ScanUpdateResult result) {
@@ -212,38 +239,54 @@ void ScanUpdater::count_sharers(const PlaneMap& map) {
 // States along a frozen direction are only considered (Schmidt): planes' errors last from scan to scan, and a
 // direction that is seen slightly askew would tell more about it with each. Their rows of the gain are zero,
 // which for the optimal gain K and D = K S K' leaves P - D + F D F, F the projector on them.
-ScanUpdateResult ScanUpdater::run(const FilterBelief& prior, const FilterState& start, const ScanView& scan,
-                                  const PlaneMap& map) {
+template <int Errors>
+ScanUpdateResult ScanUpdater::run_with(const FilterBelief& prior, const FilterState& start,
+                                       const ScanView& scan, const PlaneMap& map) {
+  constexpr bool kCalibrates = Errors == kFullSize;
   ScanUpdateResult result;
   result.belief = prior;
   FilterState present = start;
   double gate_doubt = 1.0;
-  Matrix6d gate_covariance = prior.covariance.topLeftCorner<6, 6>();
+  const Matrix6d prior_doubt = doubt_of<Errors>(covariance_of<Errors>(prior), scan);
+  Matrix6d gate_covariance = prior_doubt;
   for (int i = 0; i < config_.max_iterations; ++i) {
-    result.last = evaluate(present.odom_from_body, gate_covariance, scan, map);
+    geometry::RigidTransform pose = present.odom_from_body;
+    if constexpr (kCalibrates) pose = scan.calibration->pose_with(start.calibration, present);
+    result.last = evaluate(pose, gate_covariance, scan, map);
     result.iterations = i + 1;
     if (result.last.used < config_.min_residuals) return without_update(prior, result);
-    const ShiftedPrior shifted = shift(prior, present);
+    ShiftedPrior<Errors> shifted = shift<Errors>(prior, present);
+    if constexpr (kCalibrates) shifted.offset = scan.calibration->to_map_pose(shifted.offset);
     result.observed = keep_observed(result.last.equations);
     const ObservedPart& observed = result.observed;
-    const Correction correction = correct<6>(shifted, observed.information, observed.gradient);
-    const ErrorMatrix frozen = frozen_states(observed);
-    const ErrorVector step = shifted.offset + correction.pulled - frozen * correction.pulled;
+    const Correction<Errors> correction = correct_by<Errors>(shifted, observed, scan);
+    const ErrorsMatrix<Errors> frozen = frozen_states<Errors>(observed, scan);
+    ErrorsVector<Errors> step = shifted.offset + correction.pulled - frozen * correction.pulled;
+    if constexpr (kCalibrates) step = scan.calibration->from_map_pose(step);
     if (!step.allFinite()) return without_update(prior, result);
-    present = plus(present, step);
-    const ErrorMatrix& learnt = correction.learnt;
-    const ErrorMatrix posterior = shifted.covariance - learnt + frozen * learnt * frozen;
-    result.belief.covariance = 0.5 * (posterior + posterior.transpose());
+    present = moved_by<Errors>(present, step);
+    const ErrorsMatrix<Errors>& learnt = correction.learnt;
+    const ErrorsMatrix<Errors> posterior = shifted.covariance - learnt + frozen * learnt * frozen;
+    const ErrorsMatrix<Errors> symmetric = 0.5 * (posterior + posterior.transpose());
+    set_covariance<Errors>(result.belief, symmetric);
     gate_doubt *= kGateShrink;
-    gate_covariance =
-        result.belief.covariance.topLeftCorner<6, 6>() + gate_doubt * prior.covariance.topLeftCorner<6, 6>();
+    gate_covariance = doubt_of<Errors>(symmetric, scan) + gate_doubt * prior_doubt;
     result.updated = true;
-    if (step.segment<3>(kRot).norm() < kRotationDone_rad && step.segment<3>(kPos).norm() < kPositionDone_m)
+    if (step.template segment<3>(kRot).norm() < kRotationDone_rad &&
+        step.template segment<3>(kPos).norm() < kPositionDone_m)
       break;
   }
   result.belief.state = present;
   result.translation_conditioning = translation_conditioning(result.last.equations.information);
   return result;
+}
+
+ScanUpdateResult ScanUpdater::run(const FilterBelief& prior, const FilterState& start, const ScanView& scan,
+                                  const PlaneMap& map) {
+  EDGESPLAT_CHECK(prior.calibration.has_value() == (scan.calibration != nullptr),
+                  "a doubted calibration has a view");
+  return prior.calibration ? run_with<kFullSize>(prior, start, scan, map)
+                           : run_with<kErrorSize>(prior, start, scan, map);
 }
 
 }  // namespace edgesplat::tracking

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "robot/tracking/block_loop.hpp"
+#include "robot/tracking/calibration.hpp"
 #include "robot/tracking/degeneracy.hpp"
 #include "robot/tracking/filter_state.hpp"
 #include "robot/tracking/plane_map.hpp"
@@ -29,6 +30,9 @@ struct ScanView {
   std::span<const Eigen::Vector3f> points_in_body_m;
   std::span<const Beam> beams;               ///< of the rig's LiDARs
   std::span<const std::uint8_t> units = {};  ///< the LiDAR of each point; empty: the first measured all
+
+  /// Null where the calibration is held. Else `points_in_body_m` were made with that of the start.
+  const CalibrationView* calibration = nullptr;
 
   /// Of the i-th point along a direction in the body frame.
   [[nodiscard]] float variance_along(std::size_t i, const Eigen::Vector3f& direction) const {
@@ -92,6 +96,9 @@ class ScanUpdater {
                           const ScanView& scan, const PlaneMap& map);
 
  private:
+  template <int Errors>
+  ScanUpdateResult run_with(const FilterBelief& prior, const FilterState& start, const ScanView& scan,
+                            const PlaneMap& map);
   void count_sharers(const PlaneMap& map);
 
   ScanUpdateConfig config_;

@@ -11,17 +11,16 @@ namespace {
 constexpr std::size_t kBlockSize = 4096;
 
 std::int32_t clamp_ns(nanoseconds before_end) {
-  return static_cast<std::int32_t>(
-      std::clamp<std::int64_t>(before_end.count(), 0, std::numeric_limits<std::int32_t>::max()));
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::clamp<std::int64_t>(before_end.count(), -kMost, kMost));
 }
 
 }  // namespace
 
-Sweep::Sweep(const sensor::Rig& rig, double max_range_m, BlockLoop& loop)
-    : body_from_lidar_(rig.body_from_lidar), loop_(loop) {
+Sweep::Sweep(const sensor::Rig& rig, double max_range_m, BlockLoop& loop) : loop_(loop) {
   for (std::size_t unit = 0; unit < rig.lidar_count(); ++unit) {
     const sensor::LidarMount mount = rig.mount_of(unit);
-    const geometry::RigidTransform first_from_this = body_from_lidar_.inverse() * mount.body_from_lidar;
+    const geometry::RigidTransform first_from_this = rig.body_from_lidar.inverse() * mount.body_from_lidar;
     units_of_rig_.push_back({static_cast<float>(mount.model.min_range_m),
                              static_cast<float>(std::min(max_range_m, mount.model.max_range_m)),
                              first_from_this.rotation.toRotationMatrix().cast<float>(),
@@ -61,12 +60,18 @@ void Sweep::load(const sync::MeasureGroup& group, TrackingCounters& counters) {
   middle_ = end_ - nanoseconds(before_end_sum_ns / count);
 }
 
-void Sweep::deskew(std::span<const PathKnot> path, const geometry::RigidTransform& body_from_odom) {
+void Sweep::deskew(std::span<const PathKnot> path, const geometry::RigidTransform& body_from_odom,
+                   const SensorCalibration& calibration) {
+  const geometry::RigidTransform& body_from_lidar = calibration.body_from_lidar;
+  const nanoseconds delay = from_seconds(calibration.lidar_delay_s);
+  std::vector<PathKnot> longer(path.begin(), path.end());
+  lengthen(longer, std::max(delay, -delay));
   std::vector<pointcloud::MotionKnot> knots;
-  for (const PathKnot& knot : path) {
-    knots.push_back({clamp_ns(end_ - knot.stamp), body_from_odom * knot.odom_from_body * body_from_lidar_});
+  for (const PathKnot& knot : longer) {
+    knots.push_back(
+        {clamp_ns(end_ + delay - knot.stamp), body_from_odom * knot.odom_from_body * body_from_lidar});
   }
-  if (!has_point_times_) knots = {{0, body_from_lidar_}};
+  if (!has_point_times_) knots = {{0, body_from_lidar}};
   for (Thinned& thinned : thinned_) thinned.is_current = false;
   points_in_body_m_.resize(points_in_lidar_m_.size());
   const std::span<const Eigen::Vector3f> points = points_in_lidar_m_;

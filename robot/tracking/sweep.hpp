@@ -7,6 +7,7 @@
 #include "kernels/pointcloud/voxel_downsample.hpp"
 #include "robot/sync/measure_group.hpp"
 #include "robot/tracking/block_loop.hpp"
+#include "robot/tracking/calibration.hpp"
 #include "robot/tracking/propagation.hpp"
 #include "robot/tracking/tracked_group.hpp"
 #include "robot/tracking/tracker.hpp"
@@ -28,8 +29,10 @@ class Sweep {
   /// Takes a group's points, leaving out what is not finite or out of range, and counts those.
   void load(const sync::MeasureGroup& group, TrackingCounters& counters);
   /// Moves all points to the body frame of one moment, given as `body_from_odom`. Points from outside the
-  /// path's time take its nearest pose; without point times all are taken as measured at that moment.
-  void deskew(std::span<const PathKnot> path, const geometry::RigidTransform& body_from_odom);
+  /// path's time take its nearest pose (with a delay it is made longer by it); without point times all are
+  /// taken as measured at that moment.
+  void deskew(std::span<const PathKnot> path, const geometry::RigidTransform& body_from_odom,
+              const SensorCalibration& calibration);
   /// True when the points were measured at different times.
   [[nodiscard]] bool has_point_times() const { return has_point_times_; }
   /// Mean of the points' times: the moment that they tell most about. The group's end without point times.
@@ -57,7 +60,6 @@ class Sweep {
     std::span<const std::uint32_t> kept;
     bool is_current;
   };
-  geometry::RigidTransform body_from_lidar_;  ///< the first
   std::vector<Unit> units_of_rig_;
   BlockLoop& loop_;
   bool has_point_times_ = true;

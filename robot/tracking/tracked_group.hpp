@@ -32,7 +32,7 @@ enum class GaussianVerdict : std::uint8_t {
 };
 
 struct DeskewedPoint {
-  Eigen::Vector3f p_in_body_m;  ///< in the body frame at the group's end
+  Eigen::Vector3f p_in_body_m;  ///< in the body frame at the pose's moment
   float reflectivity;
 };
 
@@ -42,6 +42,23 @@ struct WeakestDirection {
   double signal = 0.0;
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();          ///< in the body, with `step_in_odom` of length 1
   Eigen::Vector3d step_in_odom = Eigen::Vector3d::Zero();  ///< per metre
+};
+
+/// What the filter found of the sensors' calibration, 1 sigma of it, and what the motion of the last seconds
+/// does not show: that stays as it is. What is not estimated has no sigma.
+struct SensorOffsets {
+  double lidar_delay_s = 0.0;  ///< added to the stamps of rays gives the IMU's time
+  double lidar_delay_sigma_s = 0.0;
+  bool lidar_delay_frozen = true;
+  double camera_delay_s = 0.0;  ///< the same for pictures, beyond the rig's stamp_delay_s
+  double camera_delay_sigma_s = 0.0;
+  bool camera_delay_frozen = true;
+  Eigen::Vector3d lidar_turn_rad = Eigen::Vector3d::Zero();  ///< of the LiDAR against the rig's, in the body
+  double lidar_turn_sigma_rad = 0.0;                         ///< of all three
+  Eigen::Vector3d lidar_step_m = Eigen::Vector3d::Zero();
+  double lidar_step_sigma_m = 0.0;
+  int frozen_turns = 3;  ///< of three
+  int frozen_steps = 3;
 };
 
 /// How far the pose can be trusted.
@@ -61,6 +78,7 @@ struct TrackingHealth {
   GaussianVerdict gaussian = GaussianVerdict::kNotLooked;  ///< what came of a look at the Gaussian map
   double gaussian_explained = 0.0;    ///< share of the compared pixels that the map foretells
   double gaussian_chi_squared = 0.0;  ///< of its innovation, six degrees of freedom
+  SensorOffsets offsets;
 };
 
 /// A patch of the visual map in the present picture.
@@ -74,7 +92,9 @@ struct TrackedPatch {
 /// One group with its pose: what tracking produces, keyframes and rendering consume. `odom`: continuous,
 /// gravity aligned (z up), origin at the first pose.
 struct TrackedGroup {
-  HostTime stamp{};  ///< the group's end
+  /// The pose's moment, by the IMU: the group's end, moved by what the camera's stamps were found to be off,
+  /// so that the pose is the picture's.
+  HostTime stamp{};
   geometry::RigidTransform odom_from_body;
   Eigen::Matrix<double, 6, 6> pose_covariance =
       Eigen::Matrix<double, 6, 6>::Zero();  ///< rotation (rad), translation (m)

@@ -13,8 +13,36 @@ namespace edgesplat::tracking {
 Tracker::Tracker(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Tracker::~Tracker() = default;
 
+namespace {
+
+/// What is not supported beside delays and mountings that are set or estimated.
+Status check_calibration(const TrackingConfig& config, const sensor::Rig& rig) {
+  const bool estimates = config.lidar_delay_sigma_s > 0.0 || config.camera_delay_sigma_s > 0.0 ||
+                         config.lidar_turn_sigma_rad > 0.0 || config.lidar_step_sigma_m > 0.0;
+  const bool delayed = config.lidar_delay_s != 0.0 || config.camera_delay_s != 0.0;
+  if (!estimates && !delayed) return {};
+  if (!rig.imu) {
+    return fail(
+        Errc::kInvalidConfig,
+        fmt::format("rig \"{}\" has no IMU, against which lidar_delay_s, camera_delay_s, their sigmas, "
+                    "lidar_turn_sigma_rad and lidar_step_sigma_m are: leave them at 0",
+                    rig.name));
+  }
+  if (config.gaussian_every > 0 && (estimates || config.camera_delay_s != 0.0)) {
+    return fail(
+        Errc::kInvalidConfig,
+        "gaussian_every takes pictures for exactly stamped and the calibration for exact: set it to 0, "
+        "or put a known delay into the rig's stamp_delay_s and leave camera_delay_s, the delays' sigmas, "
+        "lidar_turn_sigma_rad and lidar_step_sigma_m at 0");
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<std::unique_ptr<Tracker>> Tracker::create(const TrackingConfig& config, const sensor::Rig& rig) {
   EDGESPLAT_TRY_STATUS(validate(config));
+  EDGESPLAT_TRY_STATUS(check_calibration(config, rig));
   for (std::size_t unit = 0; unit < rig.lidar_count(); ++unit) {
     const sensor::LidarMount mount = rig.mount_of(unit);
     if (mount.body_from_lidar.is_finite() && mount.model.range_sigma_m > 0.0 &&

@@ -49,6 +49,7 @@ Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in, 
       free_motion(config_in),
       initialiser(config_in, rig_in.imu.value_or(sensor::ImuModel{})),
       rest(rig_in.imu.value_or(sensor::ImuModel{})),
+      watch(calibration_config(config_in, rig_in)),
       with_imu(rig_in.imu.has_value()) {
   if (config.visual && rig.camera) visual.emplace(config, *rig.camera, loop);
   for (std::size_t unit = 0; unit < rig.lidar_count(); ++unit) beams.push_back(beam_of(rig.mount_of(unit)));
@@ -165,12 +166,13 @@ void Tracker::Impl::pick_scan_points() {
 }
 
 ScanView Tracker::Impl::scan_view() const {
-  return {scan_points_m, beams, scan_units};
+  return {scan_points_m, beams, scan_units, estimates_calibration ? &scan_calibration : nullptr};
 }
 
 ScanUpdateResult Tracker::Impl::match(const Prediction& prediction, const FilterState& start) {
-  sweep.deskew(prediction.path, start.odom_from_body.inverse());
+  sweep.deskew(prediction.path, start.odom_from_body.inverse(), start.calibration);
   pick_scan_points();
+  deskewed_with = start.calibration;
   return updater.run(prediction.belief, start, scan_view(), map);
 }
 
@@ -180,15 +182,19 @@ ScanUpdateResult Tracker::Impl::update(Prediction& prediction, HostTime at) {
   if (!result.updated || !sweep.has_point_times() || prediction.path.size() < 2) return result;
   const double span_s = to_seconds(prediction.path.back().stamp - prediction.path.front().stamp);
   const ErrorVector correction = minus(result.belief.state, predicted);
+  const Vector6d recalibrated =
+      scan_calibration.by_calibration * minus(result.belief.state.calibration, predicted.calibration);
   if (correction.segment<3>(kVel).norm() * span_s < kDeskewAgain_m &&
-      correction.segment<3>(kGyroBias).norm() * span_s < kDeskewAgain_rad) {
+      correction.segment<3>(kGyroBias).norm() * span_s < kDeskewAgain_rad &&
+      recalibrated.tail<3>().norm() < kDeskewAgain_m && recalibrated.head<3>().norm() < kDeskewAgain_rad) {
     return result;
   }
   correct_path(prediction.path, at, predicted, result.belief.state);
   if (scans_to_redraw == kRedrawnScans) {
     // The map is the first scan, as little deskewed as this one was: only like that do they match. The map is
     // now drawn from this scan, deskewed.
-    sweep.deskew(prediction.path, result.belief.state.odom_from_body.inverse());
+    sweep.deskew(prediction.path, result.belief.state.odom_from_body.inverse(),
+                 result.belief.state.calibration);
     return result;
   }
   ScanUpdateResult again = match(prediction, result.belief.state);
@@ -214,6 +220,10 @@ TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUp
   TrackedGroup tracked;
   tracked.stamp = group.end;
   tracked.odom_from_body = at_end.state.odom_from_body;
+  if (const CalibrationView* calibration = picture_calibration()) {
+    tracked.stamp += from_seconds(at_end.state.calibration.camera_delay_s);
+    tracked.odom_from_body = odom_from_body_of_picture(at_end.state, calibration);
+  }
   tracked.pose_covariance = at_end.covariance.topLeftCorner<6, 6>();
   tracked.velocity_in_odom_mps = at_end.state.velocity_in_odom_mps;
   tracked.gravity_in_odom_mps2 = at_end.state.gravity_in_odom_mps2;
@@ -232,6 +242,7 @@ TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUp
   tracked.health.gaussian = gaussians.verdict;
   tracked.health.gaussian_explained = gaussians.explained;
   tracked.health.gaussian_chi_squared = gaussians.chi_squared;
+  tracked.health.offsets = watch.report(*belief, rig.body_from_lidar);
   if (result.last.used > 0)
     tracked.health.residual_rms_m = std::sqrt(result.last.squares_m2 / result.last.used);
   tracked.health.translation_conditioning = result.translation_conditioning;
@@ -247,12 +258,14 @@ TrackedGroup Tracker::Impl::start(const sync::MeasureGroup& group) {
   TrackedGroup waiting;
   waiting.stamp = group.end;
   if (!belief) return waiting;
+  watch.begin(*belief, rig.body_from_lidar, with_imu);
+  estimates_calibration = with_imu && watch.estimates();
   if (started) return start_in_motion(group);
   std::vector<PathKnot> path = {{group.end, belief->state.odom_from_body}};
   // The speed is unknown, but the gyro tells how the body turned.
   if (with_imu)
     path = predict_with_imu(*belief, imu, *rig.imu, free_motion.in_a_hole(), {group.begin, group.end}).path;
-  sweep.deskew(path, path.back().odom_from_body.inverse());
+  sweep.deskew(path, path.back().odom_from_body.inverse(), belief->state.calibration);
   ScanUpdateResult first;
   first.updated = true;  // this pose defines odom
   extend_map(first);
@@ -271,7 +284,7 @@ TrackedGroup Tracker::Impl::start_in_motion(const sync::MeasureGroup& group) {
     std::iota(all.begin(), all.end(), 0U);
     insert_points(scan.points_in_body_m, scan.units, all, scan.odom_from_body, scan.pose_covariance);
   }
-  sweep.deskew(started->path, belief->state.odom_from_body.inverse());
+  sweep.deskew(started->path, belief->state.odom_from_body.inverse(), belief->state.calibration);
   started.reset();
   ScanUpdateResult found;
   found.updated = true;  // the pose is that of the odometry that found it
@@ -288,6 +301,7 @@ Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
   if (!belief) return start(group);
   Prediction prediction = predict(group);
   const HostTime at = update_time(group);
+  watch_calibration(group, prediction);
   ScanUpdateResult result = update(prediction, at);
   check(result, prediction);
   if (!result.updated) ++counters.coasted_groups;
@@ -303,7 +317,7 @@ Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
   if (!picture.updated) use_rest(result);
   judge(result, picture, to_seconds(group.end - group.begin));
   extend_map(result);
-  if (picture_taken && !keeper.lost()) visual->extend(*belief, map);
+  if (picture_taken && !keeper.lost()) visual->extend(*belief, map, picture_calibration());
   return report(group, result, picture, gaussians);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "robot/tracking/block_loop.hpp"
+#include "robot/tracking/calibration_watch.hpp"
 #include "robot/tracking/free_motion.hpp"
 #include "robot/tracking/gaussian_update.hpp"
 #include "robot/tracking/imu_initialiser.hpp"
@@ -31,6 +32,8 @@ enum class Gravity : std::uint8_t { kFelt, kNone };
 
 [[nodiscard]] PlaneMapConfig map_config(const TrackingConfig& config);
 [[nodiscard]] GaussianUpdateConfig gaussian_config(const TrackingConfig& config);
+/// Nothing tells a camera's delay where no pictures are used.
+[[nodiscard]] TrackingConfig calibration_config(const TrackingConfig& config, const sensor::Rig& rig);
 
 /// The stages of one group, in their order. See Tracker.
 struct Tracker::Impl {
@@ -48,6 +51,10 @@ struct Tracker::Impl {
   TrackedGroup start_in_motion(const sync::MeasureGroup& group);
   [[nodiscard]] std::int64_t refused_starts() const;
   TrackedGroup start(const sync::MeasureGroup& group);
+  /// How far the calibration shows in the group.
+  void watch_calibration(const sync::MeasureGroup& group, Prediction& prediction);
+  /// Null where the camera's delay is exactly none.
+  [[nodiscard]] const CalibrationView* picture_calibration() const;
   /// The moment whose pose the group's points are to tell.
   HostTime update_time(const sync::MeasureGroup& group) const;
   Prediction predict(const sync::MeasureGroup& group);
@@ -92,6 +99,11 @@ struct Tracker::Impl {
   std::unique_ptr<MovingStart> moving_start;  ///< until the first pose
   std::optional<MovingStartResult> started;   ///< the group that it was found with is in hand
   RestDetector rest;
+  CalibrationWatch watch;
+  bool estimates_calibration = false;
+  CalibrationView scan_calibration;  ///< of the group in hand
+  CalibrationView camera_calibration;
+  SensorCalibration deskewed_with;  ///< the scan in hand
   TrackKeeper keeper;
   TrackingState state = TrackingState::kInitialising;
   int searches = 0;  ///< for the pose that is lost

@@ -42,6 +42,7 @@ std::optional<ScanUpdateResult> Tracker::Impl::look_for_pose(const Prediction& p
   for (const auto& pose : likely_poses(map, scan_points_m, guess, search, loop, kLikelyPoses)) {
     FilterState start = prediction.belief.state;
     start.odom_from_body = pose;
+    start.calibration = deskewed_with;
     const ScanUpdateResult found = updater.run(wide, start, scan_view(), map);
     const bool seen = static_cast<std::size_t>(found.last.used) * 2 > scan_points_m.size();
     if (!keeper.fits(found) || !seen || (best && best->last.used >= found.last.used)) continue;

@@ -22,11 +22,11 @@ VisualUpdateResult Tracker::Impl::see(const sync::MeasureGroup& group, const Sca
     ++counters.unused_pictures;
     return {};
   }
-  VisualUpdateResult result =
-      visual->update(*belief, sweep.points_in_body_m(), !scan.updated || scan.observed.frozen > 0);
+  VisualUpdateResult result = visual->update(
+      *belief, sweep.points_in_body_m(), !scan.updated || scan.observed.frozen > 0, picture_calibration());
   if (!result.updated) return result;
   ++counters.visual_updates;
-  patches = visual->tracked_patches();
+  patches = visual->tracked_patches(picture_calibration());
   belief = result.belief;
   return result;
 }

@@ -47,6 +47,16 @@ void describe(config::ConfigReader& reader, TrackingConfig& config) {
   reader.field("min_residuals", config.min_residuals, {6, 10000}, "with fewer the group coasts");
   reader.field("max_range_m", config.max_range_m, {1, 1000},
                "farther points are left out of matching and map");
+  reader.field("lidar_delay_s", config.lidar_delay_s, {-0.1, 0.1},
+               "added to the stamps of rays gives the IMU's time");
+  reader.field("camera_delay_s", config.camera_delay_s, {-0.1, 0.1},
+               "the same for pictures, beyond the rig's stamp_delay_s");
+  reader.field("lidar_delay_sigma_s", config.lidar_delay_sigma_s, {0, 0.05},
+               "1 sigma of lidar_delay_s before the start; 0 = held, else found while it drives");
+  reader.field("camera_delay_sigma_s", config.camera_delay_sigma_s, {0, 0.05}, "the same of camera_delay_s");
+  reader.field("lidar_turn_sigma_rad", config.lidar_turn_sigma_rad, {0, 0.1},
+               "1 sigma of the rig's body_from_lidar, each axis; 0 = held, else found while it drives");
+  reader.field("lidar_step_sigma_m", config.lidar_step_sigma_m, {0, 0.2}, "the same of its place");
   reader.field("visual", config.visual,
                "pictures update the pose after the LiDAR, where the rig has a camera");
   reader.field("visual_refine_normals", config.visual_refine_normals,

@@ -46,6 +46,13 @@ struct TrackingConfig {
   int min_residuals = 30;              ///< with fewer the group coasts, [6, 10000]
   double max_range_m = 120.0;          ///< farther points are left out of matching and map, [1, 1000]
 
+  double lidar_delay_s = 0.0;         ///< added to the stamps of rays gives the IMU's time, [-0.1, 0.1]
+  double camera_delay_s = 0.0;        ///< the same for pictures, beyond the rig's stamp_delay_s, [-0.1, 0.1]
+  double lidar_delay_sigma_s = 0.0;   ///< 1 sigma of it before the start; 0: held, [0, 0.05]
+  double camera_delay_sigma_s = 0.0;  ///< the same, [0, 0.05]
+  double lidar_turn_sigma_rad = 0.0;  ///< of the rig's body_from_lidar, each axis; 0: held, [0, 0.1]
+  double lidar_step_sigma_m = 0.0;    ///< the same, [0, 0.2]
+
   bool visual = true;  ///< pictures update the pose after the LiDAR, where the rig has a camera
   bool visual_refine_normals = false;  ///< visual points take their normals anew from the planes
   int visual_map_max_mb = 32;  ///< the farthest visual points are forgotten above this size, [1, 4096]

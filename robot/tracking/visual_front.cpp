@@ -80,24 +80,32 @@ FilterBelief VisualFront::with_gain(const FilterBelief& prior) const {
   belief.covariance.row(kGain).setZero();
   belief.covariance.col(kGain).setZero();
   belief.covariance(kGain, kGain) = std::min(variance, 1.0);
+  if (belief.calibration) belief.calibration->with_state.row(kGain).setZero();
   return belief;
 }
 
 VisualUpdateResult VisualFront::update(const FilterBelief& prior, std::span<const Eigen::Vector3f> points,
-                                       bool alone) {
+                                       bool alone, const CalibrationView* calibration) {
   const FilterBelief before = pictures_ > 0 ? with_gain(prior) : prior;
-  depths_.build(points, body_from_camera_.inverse(), camera_);
-  patches_ = select_patches(map_, CameraView(camera_, before.state.odom_from_body * body_from_camera_), grid_,
-                            depths_);
-  last_ = updater_.run(before, map_, patches_, {pyramid_, camera_, body_from_camera_},
-                       alone ? kShareAlone : kShareBesideLidar);
+  const geometry::RigidTransform odom_from_camera =
+      odom_from_body_of_picture(before.state, calibration) * body_from_camera_;
+  const geometry::RigidTransform camera_from_body =
+      calibration == nullptr ? body_from_camera_.inverse()
+                             : odom_from_camera.inverse() * before.state.odom_from_body;
+  depths_.build(points, camera_from_body, camera_);
+  patches_ = select_patches(map_, CameraView(camera_, odom_from_camera), grid_, depths_);
+  last_ = updater_.run(
+      before, map_, patches_,
+      {pyramid_, camera_, body_from_camera_, calibration, before.state.calibration.camera_delay_s},
+      alone ? kShareAlone : kShareBesideLidar);
   return last_;
 }
 
-std::vector<TrackedPatch> VisualFront::tracked_patches() const {
+std::vector<TrackedPatch> VisualFront::tracked_patches(const CalibrationView* calibration) const {
   std::vector<TrackedPatch> tracked;
   if (!last_.updated) return tracked;
-  const CameraView view(camera_, last_.belief.state.odom_from_body * body_from_camera_);
+  const CameraView view(camera_,
+                        odom_from_body_of_picture(last_.belief.state, calibration) * body_from_camera_);
   const double size = std::ldexp(1.0, skip_);
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     if (last_.misfit[i] < 0.0) continue;
@@ -110,8 +118,9 @@ std::vector<TrackedPatch> VisualFront::tracked_patches() const {
   return tracked;
 }
 
-void VisualFront::extend(const FilterBelief& belief, const PlaneMap& planes) {
-  const CameraView view(camera_, belief.state.odom_from_body * body_from_camera_);
+void VisualFront::extend(const FilterBelief& belief, const PlaneMap& planes,
+                         const CalibrationView* calibration) {
+  const CameraView view(camera_, odom_from_body_of_picture(belief.state, calibration) * body_from_camera_);
   const PosedPicture picture{pyramid_, view, static_cast<float>(belief.state.log_gain)};
   // Without an update the picture's gain is not known.
   if (!last_.updated && static_cast<int>(patches_.size()) >= VisualUpdateConfig{}.min_patches) return;

@@ -26,12 +26,14 @@ class VisualFront {
   [[nodiscard]] bool take(const sync::GroupImage& picture);
   /// Aligns the picture taken with the map. `points` are the scan's, in the body at the picture's moment.
   /// `alone`: there are directions that nothing but the picture sees.
+  /// `calibration`: how the camera's delay shows; null where there is none.
   VisualUpdateResult update(const FilterBelief& prior, std::span<const Eigen::Vector3f> points_in_body_m,
-                            bool alone);
+                            bool alone, const CalibrationView* calibration = nullptr);
   /// Where the patches of the last update lie in the picture, and how well each fits.
-  [[nodiscard]] std::vector<TrackedPatch> tracked_patches() const;
+  [[nodiscard]] std::vector<TrackedPatch> tracked_patches(const CalibrationView* calibration = nullptr) const;
   /// Adds what the picture shows, with the pose as it is now known.
-  void extend(const FilterBelief& belief, const PlaneMap& planes);
+  void extend(const FilterBelief& belief, const PlaneMap& planes,
+              const CalibrationView* calibration = nullptr);
 
   [[nodiscard]] const VisualMap& map() const { return map_; }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/tracking/visual_update.hpp"
 
+#include "common/base/check.hpp"
 #include "common/geometry/so3.hpp"
 #include "robot/tracking/iterated_update.hpp"
 
@@ -24,8 +25,41 @@ Eigen::Vector2f halved_pixel(const Eigen::Vector2d& pixel, int times) {
   return (((pixel.array() + 0.5) / std::ldexp(1.0, times)) - 0.5).cast<float>();
 }
 
+/// Where the body was when the picture was taken. Patches were cut out with about the delay that was believed
+/// before the picture: by the mean of what its change moves they would have been moved too.
+geometry::RigidTransform odom_from_body_of(const FilterState& state, const PictureView& picture) {
+  if (picture.calibration == nullptr) return state.odom_from_body;
+  const CalibrationView& calibration = *picture.calibration;
+  const Eigen::Matrix<double, 6, 1> change = calibration.rows().col(kErrorSize + kCameraDelay) *
+                                             (state.calibration.camera_delay_s - picture.believed_delay_s);
+  const geometry::RigidTransform pose =
+      moved(state.odom_from_body, calibration.twist, picture.believed_delay_s);
+  return moved(pose, {change.head<3>(), change.tail<3>()}, 1.0);
+}
+
 geometry::RigidTransform odom_from_camera(const FilterState& state, const PictureView& picture) {
-  return state.odom_from_body * picture.body_from_camera;
+  return odom_from_body_of(state, picture) * picture.body_from_camera;
+}
+
+template <int Errors>
+Correction<Errors> correct_by(const ShiftedPrior<Errors>& prior, const Matrix7d& information,
+                              const Vector7d& gradient, const PictureView& picture) {
+  if constexpr (Errors == kFullSize) {
+    Eigen::Matrix<double, 7, Errors> rows = Eigen::Matrix<double, 7, Errors>::Zero();
+    rows.template topRows<6>() = picture.calibration->rows();
+    rows(kGain, kGain) = 1.0;
+    Matrix7d lasting = Matrix7d::Zero();
+    lasting.topLeftCorner<6, 6>() = lasting_pose_errors();
+    Correction<Errors> correction = correct(prior, rows, information, gradient, lasting);
+    // What the motion does not show of the calibration is only considered (see ScanUpdater).
+    ErrorsMatrix<Errors> frozen = ErrorsMatrix<Errors>::Zero();
+    frozen.template bottomRightCorner<kCalibrationErrors, kCalibrationErrors>() = picture.calibration->frozen;
+    correction.pulled -= (frozen * correction.pulled).eval();
+    correction.learnt -= (frozen * correction.learnt * frozen).eval();
+    return correction;
+  } else {
+    return correct(prior, information, gradient);
+  }
 }
 
 float median(std::vector<float>& values) {
@@ -39,8 +73,9 @@ float median(std::vector<float>& values) {
 void VisualUpdater::prepare(int level, const FilterState& state, const VisualMap& map,
                             std::span<const SelectedPatch> patches, const PictureView& picture) {
   const CameraView camera(picture.camera, odom_from_camera(state, picture));
-  const geometry::RigidTransform body_from_odom = state.odom_from_body.inverse();
-  const Eigen::Matrix3d odom_from_body = state.odom_from_body.rotation.toRotationMatrix();
+  const geometry::RigidTransform body = odom_from_body_of(state, picture);
+  const geometry::RigidTransform body_from_odom = body.inverse();
+  const Eigen::Matrix3d rotation = body.rotation.toRotationMatrix();
   const int levels = picture.pyramid.levels();
   prepared_.clear();
   prepared_.reserve(patches.size());
@@ -56,7 +91,7 @@ void VisualUpdater::prepare(int level, const FilterState& state, const VisualMap
       made.view.step = (std::ldexp(shrink, level) * patch.reference.warp).cast<float>();
       const Eigen::Vector3d p_in_body = body_from_odom * point.p_in_odom_m;
       Eigen::Matrix<double, 2, 6> by_pose;
-      by_pose << seen->pixel_by_odom * odom_from_body * geometry::hat(p_in_body), -seen->pixel_by_odom;
+      by_pose << seen->pixel_by_odom * rotation * geometry::hat(p_in_body), -seen->pixel_by_odom;
       made.view.pixel_by_pose = (shrink * by_pose).cast<float>();
       made.view.pixel_by_doubt = (shrink * seen->pixel_by_odom * point.doubt_m.cast<double>()).cast<float>();
     }
@@ -131,6 +166,15 @@ double VisualUpdater::guess_log_gain(const FilterState& state, const VisualMap& 
 VisualUpdateResult VisualUpdater::run(const FilterBelief& prior, const VisualMap& map,
                                       std::span<const SelectedPatch> patches, const PictureView& picture,
                                       double share) {
+  EDGESPLAT_CHECK(!prior.calibration || picture.calibration != nullptr, "a doubted calibration has a view");
+  return prior.calibration ? run_with<kFullSize>(prior, map, patches, picture, share)
+                           : run_with<kErrorSize>(prior, map, patches, picture, share);
+}
+
+template <int Errors>
+VisualUpdateResult VisualUpdater::run_with(const FilterBelief& prior, const VisualMap& map,
+                                           std::span<const SelectedPatch> patches, const PictureView& picture,
+                                           double share) {
   VisualUpdateResult result;
   result.belief = prior;
   if (static_cast<int>(patches.size()) < config_.min_patches) return result;
@@ -151,14 +195,15 @@ VisualUpdateResult VisualUpdater::run(const FilterBelief& prior, const VisualMap
       if (!enough || sums.cost >= least_cost) break;
       least_cost = sums.cost;
       best = present;
-      const ShiftedPrior shifted = shift(prior, present);
-      const Correction correction = correct<7>(shifted, sums.information, sums.gradient);
-      const ErrorVector step = shifted.offset + correction.pulled;
+      const ShiftedPrior<Errors> shifted = shift<Errors>(prior, present);
+      const Correction<Errors> correction =
+          correct_by<Errors>(shifted, sums.information, sums.gradient, picture);
+      const ErrorsVector<Errors> step = shifted.offset + correction.pulled;
       if (!step.allFinite()) return result;
-      present = plus(present, step);
+      present = moved_by<Errors>(present, step);
       if (level == 0) {
-        const ErrorMatrix posterior = shifted.covariance - correction.learnt;
-        result.belief.covariance = 0.5 * (posterior + posterior.transpose());
+        const ErrorsMatrix<Errors> posterior = shifted.covariance - correction.learnt;
+        set_covariance<Errors>(result.belief, 0.5 * (posterior + posterior.transpose()));
         result.patches = sums.used;
         result.noise_scale = scale;
         result.updated = true;
@@ -166,8 +211,8 @@ VisualUpdateResult VisualUpdater::run(const FilterBelief& prior, const VisualMap
         for (std::size_t k = 0; k < patches.size(); ++k)
           result.misfit.push_back(static_cast<double>(equations_[k].chi_squared) / (kPixels * scale));
       }
-      if (step.segment<3>(kRot).norm() < kRotationDone_rad &&
-          step.segment<3>(kPos).norm() < kPositionDone_m) {
+      if (step.template segment<3>(kRot).norm() < kRotationDone_rad &&
+          step.template segment<3>(kPos).norm() < kPositionDone_m) {
         best = present;
         break;
       }

@@ -4,6 +4,7 @@
 
 #include "kernels/image/gray_pyramid.hpp"
 #include "robot/tracking/block_loop.hpp"
+#include "robot/tracking/calibration.hpp"
 #include "robot/tracking/filter_state.hpp"
 #include "robot/tracking/patch_residual.hpp"
 #include "robot/tracking/visual_selection.hpp"
@@ -29,6 +30,9 @@ struct PictureView {
   const image::GrayPyramid& pyramid;
   const geometry::CameraModel& camera;  ///< of level 0
   geometry::RigidTransform body_from_camera;
+  /// Null: the picture was taken at the state's moment.
+  const CalibrationView* calibration = nullptr;
+  double believed_delay_s = 0.0;  ///< of the camera, before the picture
 };
 
 struct VisualUpdateResult {
@@ -69,6 +73,10 @@ class VisualUpdater {
     double cost = 0.0;
     int used = 0;
   };
+  template <int Errors>
+  VisualUpdateResult run_with(const FilterBelief& prior, const VisualMap& map,
+                              std::span<const SelectedPatch> patches, const PictureView& picture,
+                              double share);
   void prepare(int level, const FilterState& state, const VisualMap& map,
                std::span<const SelectedPatch> patches, const PictureView& picture);
   /// Equations of every patch at a state; chi squared below 0 for one that is out of the picture.

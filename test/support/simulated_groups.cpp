@@ -56,6 +56,7 @@ SimulatedDrive::SimulatedDrive(const simulate::World& world, const SimulatedDriv
       imu_(trajectory_, imu_config(config)) {
   for (std::size_t unit = 0; unit < rig_.lidar_count(); ++unit)
     lidars_.emplace_back(world, trajectory_, lidar_config(rig_, config, unit));
+  rig_.body_from_lidar = config.lidar_error * rig_.body_from_lidar;
 }
 
 simulate::BodyState SimulatedDrive::truth(HostTime stamp) const {
@@ -80,8 +81,10 @@ void SimulatedDrive::add_points(sync::MeasureGroup& group, double begin_s, doubl
                                 std::size_t unit) const {
   const simulate::LidarPattern pattern;
   const double packet_s = to_seconds(lidars_[unit].packet_period());
-  const auto first = static_cast<std::uint64_t>(std::ceil(begin_s / packet_s - 1e-6));
-  const auto last = static_cast<std::uint64_t>(std::ceil(end_s / packet_s - 1e-6));
+  const double error_s = config_.lidar_stamp_error_s;
+  const auto first =
+      static_cast<std::uint64_t>(std::ceil(std::max(0.0, begin_s - error_s) / packet_s - 1e-6));
+  const auto last = static_cast<std::uint64_t>(std::ceil(std::max(0.0, end_s - error_s) / packet_s - 1e-6));
   const std::uint64_t step = config_.keep_every_packet;
   const std::size_t at_once = step == 1 && last > first ? last - first : 1;  // on all cores
   for (std::uint64_t number = first; number < last; number += step == 1 ? at_once : step) {
@@ -90,7 +93,7 @@ void SimulatedDrive::add_points(sync::MeasureGroup& group, double begin_s, doubl
         const simulate::WirePoint& point = packet.points[i];
         if (point.x_mm == 0 && point.y_mm == 0 && point.z_mm == 0) continue;
         const auto shot = static_cast<std::int64_t>(packet.first_shot + i);
-        const HostTime fired = stamp_at(0.0) + nanoseconds(shot * pattern.shot_period_ns());
+        const HostTime fired = stamp_at(error_s) + nanoseconds(shot * pattern.shot_period_ns());
         if (fired > group.end) continue;
         group.points.push_back(
             {Eigen::Vector3f(static_cast<float>(point.x_mm), static_cast<float>(point.y_mm),

@@ -21,7 +21,9 @@ struct SimulatedDriveConfig {
   double group_s = 0.1;
   bool with_imu = true;
   bool noisy = true;
-  std::uint64_t keep_every_packet = 1;  ///< thins the points: 1 keeps all 200 000 points/s
+  std::uint64_t keep_every_packet = 1;   ///< thins the points: 1 keeps all 200 000 points/s
+  double lidar_stamp_error_s = 0.0;      ///< added to the stamps of rays
+  geometry::RigidTransform lidar_error;  ///< the rig's body_from_lidar is this times the true one
   std::uint64_t seed = 1;
   std::vector<sensor::LidarMount> more_lidars;  ///< Mid-360s as well
 };

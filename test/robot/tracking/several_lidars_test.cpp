@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The edgesplat authors
 // SPDX-License-Identifier: Apache-2.0
 // Several LiDARs on one body: their points in one frame, each with the noise and the place of its own LiDAR.
+#include "common/geometry/so3.hpp"
 #include "robot/tracking/scan_update.hpp"
 #include "robot/tracking/sweep.hpp"
 #include "robot/tracking/tracker.hpp"
@@ -94,21 +95,31 @@ TEST(SeveralLidars, PutTheSamePlaceAtTheSamePlace) {
   std::vector<PathKnot> path;
   for (int i = 0; i <= 20; ++i)
     path.push_back({group.begin + nanoseconds(5'000'000 * i), even_pose(-0.1 + 0.005 * i)});
-  for (int i = 99; i >= 0; --i) {
-    const auto unit = static_cast<std::uint8_t>(i % 3);
-    const geometry::RigidTransform odom_from_lidar =
-        even_pose(-0.001 * i) * rig.mount_of(unit).body_from_lidar;
-    group.points.push_back({(odom_from_lidar.inverse() * place).cast<float>(), 0.5F, 1'000'000 * i, 0, unit});
+  // All stamps late by a delay that is known, all LiDARs moved together with the first one: the same.
+  const geometry::RigidTransform moved(geometry::so3_exp({0.01, -0.02, 0.015}), {0.02, -0.01, 0.03});
+  for (const double delay_s : {0.0, 0.008, -0.008}) {
+    SensorCalibration calibration{delay_s, 0.0, rig.body_from_lidar};
+    if (delay_s != 0.0) calibration.body_from_lidar = moved * rig.body_from_lidar;
+    const geometry::RigidTransform change = calibration.body_from_lidar * rig.body_from_lidar.inverse();
+    group.points.clear();
+    for (int i = 99; i >= 0; --i) {
+      const auto unit = static_cast<std::uint8_t>(i % 3);
+      const geometry::RigidTransform odom_from_lidar =
+          even_pose(-0.001 * i + delay_s) * change * rig.mount_of(unit).body_from_lidar;
+      group.points.push_back(
+          {(odom_from_lidar.inverse() * place).cast<float>(), 0.5F, 1'000'000 * i, 0, unit});
+    }
+    BlockLoop loop(1);
+    Sweep sweep(rig, 100.0, loop);
+    TrackingCounters counters;
+    sweep.load(group, counters);
+    sweep.deskew(path, geometry::RigidTransform(), calibration);
+    ASSERT_EQ(sweep.points_in_body_m().size(), 100U);
+    for (const Eigen::Vector3f& p : sweep.points_in_body_m())
+      EXPECT_LT((p.cast<double>() - place).norm(),
+                3e-4);  // the path is straight between and beyond its knots
+    EXPECT_EQ(std::ranges::count(sweep.units(), 1), 33);
   }
-  BlockLoop loop(1);
-  Sweep sweep(rig, 100.0, loop);
-  TrackingCounters counters;
-  sweep.load(group, counters);
-  sweep.deskew(path, geometry::RigidTransform());
-  ASSERT_EQ(sweep.points_in_body_m().size(), 100U);
-  for (const Eigen::Vector3f& p : sweep.points_in_body_m())
-    EXPECT_LT((p.cast<double>() - place).norm(), 2e-4);  // the path is straight between its knots
-  EXPECT_EQ(std::ranges::count(sweep.units(), 1), 33);
 }
 
 TEST(SeveralLidars, HaveLimitsOfTheirOwnAndNoPlaceOutsideTheRig) {

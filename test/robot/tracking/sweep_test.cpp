@@ -38,7 +38,7 @@ TEST(Sweep, ThinsAsTheDownsamplerDoesWithEveryEdge) {
   pointcloud::VoxelDownsampler downsampler;
   for (const double shift_m : {0.0, 0.25}) {
     const geometry::RigidTransform body_from_odom{Eigen::Quaterniond::Identity(), {shift_m, 0.0, 0.0}};
-    sweep.deskew(path, body_from_odom);
+    sweep.deskew(path, body_from_odom, {});
     const auto wide = copy(sweep.thinned(1.0));
     EXPECT_EQ(wide, copy(downsampler.run(sweep.points_in_body_m(), 1.0F)));
     const auto narrow = copy(sweep.thinned(0.5));
@@ -56,9 +56,9 @@ TEST(Sweep, ThinsWhatTheNewestDeskewingLeft) {
   const sync::MeasureGroup group = group_of(1000);
   sweep.load(group, counters);
   const std::vector<PathKnot> path = {{group.end, {}}};
-  sweep.deskew(path, {});
+  sweep.deskew(path, {}, {});
   const auto before = copy(sweep.thinned(1.0));
-  sweep.deskew(path, {Eigen::Quaterniond::Identity(), {0.5, 0.0, 0.0}});
+  sweep.deskew(path, {Eigen::Quaterniond::Identity(), {0.5, 0.0, 0.0}}, {});
   EXPECT_NE(copy(sweep.thinned(1.0)), before);
 }
 
