@@ -38,6 +38,28 @@ void publish_lidars(const std::vector<sync::LidarCounters>& lidars, metrics::Reg
   }
 }
 
+void publish_offsets(const tracking::SensorOffsets& offsets, metrics::Registry& metrics) {
+  const std::pair<const char*, double> found[] = {
+      {"lidar_delay_ms", 1e3 * offsets.lidar_delay_s},
+      {"lidar_delay_sigma_ms", 1e3 * offsets.lidar_delay_sigma_s},
+      {"lidar_delay_frozen", offsets.lidar_delay_frozen ? 1.0 : 0.0},
+      {"camera_delay_ms", 1e3 * offsets.camera_delay_s},
+      {"camera_delay_sigma_ms", 1e3 * offsets.camera_delay_sigma_s},
+      {"camera_delay_frozen", offsets.camera_delay_frozen ? 1.0 : 0.0},
+      {"lidar_turn_x_mrad", 1e3 * offsets.lidar_turn_rad.x()},
+      {"lidar_turn_y_mrad", 1e3 * offsets.lidar_turn_rad.y()},
+      {"lidar_turn_z_mrad", 1e3 * offsets.lidar_turn_rad.z()},
+      {"lidar_turn_sigma_mrad", 1e3 * offsets.lidar_turn_sigma_rad},
+      {"lidar_turn_frozen", static_cast<double>(offsets.frozen_turns)},
+      {"lidar_step_x_mm", 1e3 * offsets.lidar_step_m.x()},
+      {"lidar_step_y_mm", 1e3 * offsets.lidar_step_m.y()},
+      {"lidar_step_z_mm", 1e3 * offsets.lidar_step_m.z()},
+      {"lidar_step_sigma_mm", 1e3 * offsets.lidar_step_sigma_m},
+      {"lidar_step_frozen", static_cast<double>(offsets.frozen_steps)},
+  };
+  for (const auto& [name, value] : found) metrics.gauge(std::string("tracking.") + name).set(value);
+}
+
 sync::GroupBuilderConfig with_clocks(const robot_config::RobotConfig& config) {
   sync::GroupBuilderConfig sync = config.sync;
   sync.imu_has_own_clock = config.serial.imu;
@@ -115,6 +137,7 @@ std::optional<TrackedFrame> SensingChain::track(ReadyGroup ready) {
     return std::nullopt;
   }
   pose_stream_.correct(*tracked);
+  offsets_ = tracked->health.offsets;
   TrackedFrame frame;
   frame.group = std::move(*tracked);
   frame.image = std::move(ready.group.image);
@@ -165,6 +188,7 @@ void SensingChain::publish_counters(metrics::Registry& metrics) const {
       {"tracking.gaussian_updates", t.gaussian_updates},
   };
   for (const auto& [name, value] : tracked) metrics.counter(name).add(static_cast<std::uint64_t>(value));
+  publish_offsets(offsets_, metrics);
   metrics.gauge("tracking.map_bytes").set(static_cast<double>(t.map_bytes));
   metrics.gauge("tracking.visual_points").set(static_cast<double>(t.visual_points));
   metrics.gauge("tracking.visual_map_bytes").set(static_cast<double>(t.visual_map_bytes));

@@ -67,6 +67,7 @@ class SensingChain {
   HostTime sample_arrival_{};  ///< of the measurement that sync() has in hand
   KeyframeStage keyframe_stage_;
   std::uint64_t clock_lies_ = 0;  ///< said so far
+  tracking::SensorOffsets offsets_;
   metrics::Histogram& track_ms_;
   metrics::Counter& refused_groups_;
   metrics::Counter& streamed_poses_;

@@ -109,6 +109,36 @@ std::string offsets_table(const nlohmann::json& metrics) {
   return rows.size() > 1 ? html_table(rows) : "";
 }
 
+/// What tracking found of delays and mounting; empty where all of it is held.
+std::string found_offsets_table(const nlohmann::json& metrics) {
+  std::vector<std::vector<std::string>> rows = {
+      {"found by tracking", "value", "1 sigma", "held by the motion"}};
+  const auto value = [&](const std::string& name) {
+    return find_metric(metrics, {"tracking." + name}).value_or(0.0);
+  };
+  for (const auto& [device, name] : {std::pair{"lidar", "LiDAR"}, {"camera", "camera"}}) {
+    const std::string prefix = fmt::format("{}_delay_", device);
+    if (!(value(prefix + "sigma_ms") > 0.0)) continue;
+    rows.push_back({fmt::format("{} later than its stamps, ms", name),
+                    fmt::format("{:.2f}", value(prefix + "ms")),
+                    fmt::format("{:.2f}", value(prefix + "sigma_ms")),
+                    value(prefix + "frozen") > 0.0 ? "at the end" : "no"});
+  }
+  for (const auto& [part, name, unit] :
+       {std::tuple{"lidar_turn", "LiDAR turned against the rig's", "mrad"}, {"lidar_step", "moved", "mm"}}) {
+    const double sigma = value(fmt::format("{}_sigma_{}", part, unit));
+    if (!(sigma > 0.0)) continue;
+    const auto axis = [&](char name_of_axis) {
+      return value(fmt::format("{}_{}_{}", part, name_of_axis, unit));
+    };
+    rows.push_back({fmt::format("{} (x, y, z of the body), {}", name, unit),
+                    fmt::format("{:.1f}, {:.1f}, {:.1f}", axis('x'), axis('y'), axis('z')),
+                    fmt::format("{:.1f} (all three)", sigma),
+                    fmt::format("{:.0f} of 3 directions at the end", value(fmt::format("{}_frozen", part)))});
+  }
+  return rows.size() > 1 ? html_table(rows) : "";
+}
+
 Result<std::string> picture_with_patches(const KeyframeFiles& files) {
   constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 20U;
   EDGESPLAT_TRY(const std::string text, io::read_text_file(files.patches, kMostBytes));
@@ -139,6 +169,7 @@ std::vector<std::string> patch_pictures(RunFolder& run, std::size_t limit) {
 std::string tracking_section(const RunFolder& run, const std::vector<std::string>& patch_pictures) {
   const CsvTable& table = run.groups;
   const Groups groups = groups_of(table);
+  const std::string found = found_offsets_table(run.robot_metrics);
   std::vector<std::string> plots;
   if (!groups.seconds.empty()) {
     plots = {
@@ -150,6 +181,9 @@ std::string tracking_section(const RunFolder& run, const std::vector<std::string
                 {{"visual_patches", "patches", kGreen}}),
         plot_of(table, groups, {"Brightness of the pictures", "time (s)", "ln of the gain", {}},
                 {{"log_gain", "against the first picture", kOrange}})};
+    if (!found.empty())
+      plots.push_back(plot_of(table, groups, {"Delays against the IMU", "time (s)", "ms", {}},
+                              {{"lidar_delay_ms", "LiDAR", kBlue}, {"camera_delay_ms", "camera", kGreen}}));
     std::erase_if(plots, [](const std::string& plot) { return plot.empty(); });
   }
   std::string body;
@@ -163,7 +197,7 @@ std::string tracking_section(const RunFolder& run, const std::vector<std::string
         "looking as they did before: the farther, the less they count. Crossed out: left out.");
     body += html_grid(patch_pictures);
   }
-  body += offsets_table(run.robot_metrics);
+  body += offsets_table(run.robot_metrics) + found;
   if (body.empty()) body = html_paragraph("The run says nothing about its tracking.");
   return html_section("What tracking saw", body);
 }

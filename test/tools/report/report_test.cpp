@@ -82,6 +82,25 @@ TEST(WriteReport, ThePageStandsAlone) {
   EXPECT_LT(std::filesystem::file_size(folder / "report.html"), 3'000'000U);
 }
 
+TEST(WriteReport, OffsetsStandWhereTheyWereEstimated) {
+  const auto folder = folder_named("offsets");
+  ASSERT_TRUE(make_run_folder(folder));
+  ASSERT_TRUE(write_report({folder, {}, 1}));
+  EXPECT_EQ(text_of_page(folder).find("found by tracking"), std::string::npos);
+  ASSERT_TRUE(io::write_file_atomically(
+      folder / "robot" / "metrics.json",
+      std::string_view(R"({"gauges": {"tracking.lidar_delay_ms": -7.93, "tracking.lidar_delay_sigma_ms": 0.21,
+        "tracking.lidar_delay_frozen": 1, "tracking.camera_delay_ms": 3.0, "tracking.camera_delay_sigma_ms": 0,
+        "tracking.lidar_step_x_mm": 12.0, "tracking.lidar_step_y_mm": -4.0, "tracking.lidar_step_z_mm": 0.5,
+        "tracking.lidar_step_sigma_mm": 6.0, "tracking.lidar_step_frozen": 1}})")));
+  ASSERT_TRUE(write_report({folder, {}, 1}));
+  const std::string page = text_of_page(folder);
+  for (const char* text : {"found by tracking", "LiDAR later than its stamps, ms", "-7.93", "0.21",
+                           "at the end", "12.0, -4.0, 0.5", "1 of 3 directions at the end"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  EXPECT_EQ(page.find("camera later than its stamps"), std::string::npos);  // held
+}
+
 TEST(WriteReport, AnEmptyFolderIsSaidNotFatal) {
   const auto folder = folder_named("empty");
   std::filesystem::remove_all(folder);
