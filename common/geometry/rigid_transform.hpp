@@ -28,7 +28,7 @@ struct RigidTransform {
 [[nodiscard]] RigidTransform operator*(const RigidTransform& c_from_b, const RigidTransform& b_from_a);
 [[nodiscard]] Eigen::Vector3d operator*(const RigidTransform& b_from_a, const Eigen::Vector3d& p_in_a);
 
-/// Between two poses of one body, t in [0, 1]: rotation along the geodesic, translation straight.
+/// Between two poses of one body, t in [0, 1], or beyond: rotation along the geodesic, translation straight.
 [[nodiscard]] RigidTransform interpolate(const RigidTransform& first, const RigidTransform& second, double t);
 
 }  // namespace edgesplat::geometry

@@ -16,14 +16,8 @@ constexpr double kLastingTurn_rad = 0.001;
 constexpr double kLastingStep_m = 0.02;
 
 PathKnot beyond(const PathKnot& inner, const PathKnot& end, HostTime stamp) {
-  const double share = to_seconds(stamp - end.stamp) / to_seconds(end.stamp - inner.stamp);
-  const Eigen::Vector3d turn =
-      geometry::so3_log(inner.odom_from_body.rotation.conjugate() * end.odom_from_body.rotation);
-  PathKnot knot{stamp, end.odom_from_body};
-  knot.odom_from_body.rotation = (end.odom_from_body.rotation * geometry::so3_exp(share * turn)).normalized();
-  knot.odom_from_body.translation_m +=
-      share * (end.odom_from_body.translation_m - inner.odom_from_body.translation_m);
-  return knot;
+  const double share = to_seconds(stamp - end.stamp) / to_seconds(inner.stamp - end.stamp);
+  return {stamp, geometry::interpolate(end.odom_from_body, inner.odom_from_body, share)};
 }
 
 }  // namespace
@@ -48,8 +42,9 @@ BodyTwist twist_at_end(const std::vector<PathKnot>& path, nanoseconds span) {
 
 geometry::RigidTransform moved(const geometry::RigidTransform& odom_from_body, const BodyTwist& twist,
                                double later_s) {
-  return {(odom_from_body.rotation * geometry::so3_exp(later_s * twist.turn_in_body_radps)).normalized(),
-          odom_from_body.translation_m + later_s * twist.step_in_odom_mps};
+  Eigen::Matrix<double, 6, 1> error;
+  error << later_s * twist.turn_in_body_radps, later_s * twist.step_in_odom_mps;
+  return plus(odom_from_body, error);
 }
 
 void lengthen(std::vector<PathKnot>& path, nanoseconds by) {
@@ -111,9 +106,8 @@ FullVector CalibrationView::from_map_pose(const FullVector& error) const {
 
 geometry::RigidTransform CalibrationView::pose_with(const SensorCalibration& used,
                                                     const FilterState& state) const {
-  const Eigen::Matrix<double, 6, 1> change = by_calibration * minus(state.calibration, used);
-  return {(state.odom_from_body.rotation * geometry::so3_exp(change.head<3>())).normalized(),
-          state.odom_from_body.translation_m + change.tail<3>()};
+  return plus(state.odom_from_body,
+              Eigen::Matrix<double, 6, 1>(by_calibration * minus(state.calibration, used)));
 }
 
 }  // namespace edgesplat::tracking

@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kWindow_s = 4.0;
 constexpr std::size_t kLeastMoments = 10;
-/// Turns move what is this far away: to compare turns with steps.
-constexpr double kLever_m = 5.0;
 /// Least scatter of what a unit error moves, root mean square: a delay of 1 ms then moves things by 0.2 mm
 /// against each other, a turn of a mrad by 0.5 mm, a step of a cm by 1 mm.
 constexpr double kDelayScatter_mps = 0.2;
@@ -25,11 +23,6 @@ constexpr double kStepScatter = 0.1;
 constexpr double kDelayWalk_s_per_sqrt_s = 2e-5;
 
 }  // namespace
-
-bool CalibrationWatch::estimates() const {
-  return config_.lidar_delay_sigma_s > 0.0 || config_.camera_delay_sigma_s > 0.0 ||
-         config_.lidar_turn_sigma_rad > 0.0 || config_.lidar_step_sigma_m > 0.0;
-}
 
 void CalibrationWatch::begin(FilterBelief& belief, const geometry::RigidTransform& body_from_lidar,
                              bool with_imu) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "robot/tracking/calibration.hpp"
+#include "robot/tracking/degeneracy.hpp"
 #include "robot/tracking/tracked_group.hpp"
 #include "robot/tracking/tracking_config.hpp"
 
@@ -19,7 +20,7 @@ class CalibrationWatch {
   explicit CalibrationWatch(const TrackingConfig& config) : config_(config) {}
 
   /// Whether anything of the calibration is to be estimated at all.
-  [[nodiscard]] bool estimates() const;
+  [[nodiscard]] bool estimates() const { return config_.estimates_calibration(); }
   /// The doubt at the start; leaves what is not estimated exact, and without an IMU all.
   void begin(FilterBelief& belief, const geometry::RigidTransform& body_from_lidar, bool with_imu) const;
   /// Clocks drift.

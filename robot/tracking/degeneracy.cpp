@@ -16,8 +16,6 @@ constexpr double kFullSignal = 4.0;
 /// Least noise, as a share of the mean information of rotation or position: keeps the problem regular where
 /// planes are perfect.
 constexpr double kLeastNoise = 1e-5;
-/// Turns move what is this far away: to compare turns with steps.
-constexpr double kLever_m = 5.0;
 
 /// The projector with one more direction in its span.
 void widen(Eigen::Matrix3d& projector, const Eigen::Vector3d& direction) {

@@ -11,6 +11,9 @@ namespace edgesplat::tracking {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
+/// Turns move what is this far away: to compare turns with steps.
+inline constexpr double kLever_m = 5.0;
+
 /// Normal equations on (rotation, position), and the part of them that noise would make by itself.
 struct NormalEquations {
   Matrix6d information = Matrix6d::Zero();  ///< sum of w h h'

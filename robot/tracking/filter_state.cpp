@@ -15,11 +15,15 @@ bool FilterState::is_finite() const {
          calibration.body_from_lidar.is_finite();
 }
 
+geometry::RigidTransform plus(const geometry::RigidTransform& pose,
+                              const Eigen::Matrix<double, 6, 1>& error) {
+  return {(pose.rotation * geometry::so3_exp(error.head<3>())).normalized(),
+          pose.translation_m + error.tail<3>()};
+}
+
 FilterState plus(const FilterState& state, const ErrorVector& error) {
   FilterState sum;
-  sum.odom_from_body.rotation =
-      (state.odom_from_body.rotation * geometry::so3_exp(error.segment<3>(kRot))).normalized();
-  sum.odom_from_body.translation_m = state.odom_from_body.translation_m + error.segment<3>(kPos);
+  sum.odom_from_body = plus(state.odom_from_body, Eigen::Matrix<double, 6, 1>(error.head<6>()));
   sum.velocity_in_odom_mps = state.velocity_in_odom_mps + error.segment<3>(kVel);
   sum.gyro_bias_radps = state.gyro_bias_radps + error.segment<3>(kGyroBias);
   sum.accel_bias_mps2 = state.accel_bias_mps2 + error.segment<3>(kAccelBias);

@@ -61,6 +61,9 @@ struct FilterState {
 
 /// state ⊞ error.
 [[nodiscard]] FilterState plus(const FilterState& state, const ErrorVector& error);
+/// pose ⊞ (rotation, translation): the convention of rigid_transform.hpp.
+[[nodiscard]] geometry::RigidTransform plus(const geometry::RigidTransform& pose,
+                                            const Eigen::Matrix<double, 6, 1>& error);
 /// The error with other ⊞ error == state.
 [[nodiscard]] ErrorVector minus(const FilterState& state, const FilterState& other);
 

@@ -57,8 +57,7 @@ bool Tracker::MovingStart::sees_rest() const {
   const TrackingCounters& seen = odometry_->counters;
   if (seen.groups - seen.coasted_groups < kGroupsToSeeRest) return false;
   // Along a tunnel the speed is what it was first thought to be.
-  const Eigen::Vector3d& velocity_mps = odometry_->belief->state.velocity_in_odom_mps;
-  return (velocity_mps - odometry_->unseen_steps * velocity_mps).norm() < kRestSpeed_mps;
+  return seen_velocity_mps(odometry_->belief->state, odometry_->unseen_steps).norm() < kRestSpeed_mps;
 }
 
 void Tracker::MovingStart::forget() {

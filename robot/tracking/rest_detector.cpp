@@ -59,6 +59,10 @@ bool RestDetector::add(std::span<const sync::GroupImu> imu, const FilterState& s
   return quiet_s_ >= kQuiet_s;
 }
 
+Eigen::Vector3d seen_velocity_mps(const FilterState& state, const Eigen::Matrix3d& unseen) {
+  return state.velocity_in_odom_mps - unseen * state.velocity_in_odom_mps;
+}
+
 void hold_velocity(FilterBelief& belief, const Eigen::Matrix3d& directions_in_odom, double sigma_mps) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(directions_in_odom);
   for (int k = 0; k < 3; ++k) {

@@ -27,6 +27,8 @@ class RestDetector {
   double quiet_s_ = 0.0;
 };
 
+/// The velocity without what it is along the directions of a projector, which nothing sees.
+[[nodiscard]] Eigen::Vector3d seen_velocity_mps(const FilterState& state, const Eigen::Matrix3d& unseen);
 /// A measurement that the velocity is zero along the directions of a projector.
 void hold_velocity(FilterBelief& belief, const Eigen::Matrix3d& directions_in_odom, double sigma_mps);
 

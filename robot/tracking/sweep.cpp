@@ -64,10 +64,14 @@ void Sweep::deskew(std::span<const PathKnot> path, const geometry::RigidTransfor
                    const SensorCalibration& calibration) {
   const geometry::RigidTransform& body_from_lidar = calibration.body_from_lidar;
   const nanoseconds delay = from_seconds(calibration.lidar_delay_s);
-  std::vector<PathKnot> longer(path.begin(), path.end());
-  lengthen(longer, std::max(delay, -delay));
+  std::vector<PathKnot> longer;
+  if (delay != nanoseconds(0)) {
+    longer.assign(path.begin(), path.end());
+    lengthen(longer, std::max(delay, -delay));
+    path = longer;
+  }
   std::vector<pointcloud::MotionKnot> knots;
-  for (const PathKnot& knot : longer) {
+  for (const PathKnot& knot : path) {
     knots.push_back(
         {clamp_ns(end_ + delay - knot.stamp), body_from_odom * knot.odom_from_body * body_from_lidar});
   }

@@ -17,8 +17,7 @@ namespace {
 
 /// What is not supported beside delays and mountings that are set or estimated.
 Status check_calibration(const TrackingConfig& config, const sensor::Rig& rig) {
-  const bool estimates = config.lidar_delay_sigma_s > 0.0 || config.camera_delay_sigma_s > 0.0 ||
-                         config.lidar_turn_sigma_rad > 0.0 || config.lidar_step_sigma_m > 0.0;
+  const bool estimates = config.estimates_calibration();
   const bool delayed = config.lidar_delay_s != 0.0 || config.camera_delay_s != 0.0;
   if (!estimates && !delayed) return {};
   if (!rig.imu) {

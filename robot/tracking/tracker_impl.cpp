@@ -205,9 +205,8 @@ void Tracker::Impl::use_rest(const ScanUpdateResult& result) {
   if (!with_imu || gravity == Gravity::kNone || imu.empty() || !rest.add(imu, belief->state)) return;
   const Eigen::Matrix3d unseen =
       result.updated ? result.observed.frozen_steps : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-  const Eigen::Vector3d seen_mps =
-      belief->state.velocity_in_odom_mps - unseen * belief->state.velocity_in_odom_mps;
-  if (seen_mps.norm() < kRestSpeed_mps) hold_velocity(*belief, unseen, kRestSigma_mps);
+  if (seen_velocity_mps(belief->state, unseen).norm() < kRestSpeed_mps)
+    hold_velocity(*belief, unseen, kRestSigma_mps);
 }
 
 TrackedGroup Tracker::Impl::report(const sync::MeasureGroup& group, const ScanUpdateResult& result,

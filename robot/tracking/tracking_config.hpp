@@ -52,6 +52,10 @@ struct TrackingConfig {
   double camera_delay_sigma_s = 0.0;  ///< the same, [0, 0.05]
   double lidar_turn_sigma_rad = 0.0;  ///< of the rig's body_from_lidar, each axis; 0: held, [0, 0.1]
   double lidar_step_sigma_m = 0.0;    ///< the same, [0, 0.2]
+  [[nodiscard]] bool estimates_calibration() const {
+    return lidar_delay_sigma_s > 0.0 || camera_delay_sigma_s > 0.0 || lidar_turn_sigma_rad > 0.0 ||
+           lidar_step_sigma_m > 0.0;
+  }
 
   bool visual = true;  ///< pictures update the pose after the LiDAR, where the rig has a camera
   bool visual_refine_normals = false;  ///< visual points take their normals anew from the planes

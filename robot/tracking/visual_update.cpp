@@ -32,9 +32,7 @@ geometry::RigidTransform odom_from_body_of(const FilterState& state, const Pictu
   const CalibrationView& calibration = *picture.calibration;
   const Eigen::Matrix<double, 6, 1> change = calibration.rows().col(kErrorSize + kCameraDelay) *
                                              (state.calibration.camera_delay_s - picture.believed_delay_s);
-  const geometry::RigidTransform pose =
-      moved(state.odom_from_body, calibration.twist, picture.believed_delay_s);
-  return moved(pose, {change.head<3>(), change.tail<3>()}, 1.0);
+  return plus(moved(state.odom_from_body, calibration.twist, picture.believed_delay_s), change);
 }
 
 geometry::RigidTransform odom_from_camera(const FilterState& state, const PictureView& picture) {

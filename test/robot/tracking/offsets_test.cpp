@@ -5,12 +5,12 @@
 #include "common/geometry/so3.hpp"
 #include "robot/tracking/tracker.hpp"
 #include "test/support/simulated_groups.hpp"
+#include "test/support/trajectory_error.hpp"
 #include "test/tools/simulate/box_world.hpp"
 #include "tools/simulate/camera_render.hpp"
 #include "tools/simulate/camera_sensor.hpp"
 
 #include <gtest/gtest.h>
-#include <Eigen/Geometry>
 
 #include <cmath>
 #include <memory>
@@ -76,17 +76,6 @@ void add_picture(const simulate::World& world, const test::SimulatedDrive& sourc
                        static_cast<float>(exposure.exposure_s(time_s)), 0.0F, number};
 }
 
-double ate_of(const std::vector<Eigen::Vector3d>& estimate, const std::vector<Eigen::Vector3d>& truth) {
-  const auto columns = [](const std::vector<Eigen::Vector3d>& points) {
-    return Eigen::Map<const Eigen::Matrix3Xd>(points.front().data(), 3,
-                                              static_cast<Eigen::Index>(points.size()));
-  };
-  const Eigen::Matrix4d aligned = Eigen::umeyama(columns(estimate), columns(truth), false);
-  const Eigen::Matrix3Xd moved = (aligned.topLeftCorner<3, 3>() * columns(estimate)).colwise() +
-                                 Eigen::Vector3d(aligned.topRightCorner<3, 1>());
-  return std::sqrt((moved - columns(truth)).colwise().squaredNorm().mean());
-}
-
 Found drive(const simulate::World& world, const Drive& drive) {
   test::SimulatedDrive source(world, drive.config);
   sensor::Rig rig = source.rig();
@@ -105,7 +94,7 @@ Found drive(const simulate::World& world, const Drive& drive) {
     estimate.push_back(tracked->odom_from_body.translation_m);
     truth.push_back(source.truth(tracked->stamp).world_from_body.translation_m);
   }
-  found.ate_m = ate_of(estimate, truth);
+  found.ate_m = test::absolute_error_m(estimate, truth);
   return found;
 }
 

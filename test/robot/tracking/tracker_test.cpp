@@ -3,10 +3,10 @@
 #include "robot/tracking/tracker.hpp"
 
 #include "test/support/simulated_groups.hpp"
+#include "test/support/trajectory_error.hpp"
 #include "test/tools/simulate/box_world.hpp"
 
 #include <gtest/gtest.h>
-#include <Eigen/Geometry>
 
 #include <cstring>
 #include <limits>
@@ -58,14 +58,7 @@ Errors drive(const test::SimulatedDriveConfig& config, int skipped_groups = 0) {
     errors.coasted += tracked->health.state == TrackingState::kCoasting ? 1 : 0;
   }
   errors.poses = static_cast<int>(estimate.size());
-  const auto columns = [](const std::vector<Eigen::Vector3d>& points) {
-    return Eigen::Map<const Eigen::Matrix3Xd>(points.front().data(), 3,
-                                              static_cast<Eigen::Index>(points.size()));
-  };
-  const Eigen::Matrix4d aligned = Eigen::umeyama(columns(estimate), columns(truth), false);
-  const Eigen::Matrix3Xd moved = (aligned.topLeftCorner<3, 3>() * columns(estimate)).colwise() +
-                                 Eigen::Vector3d(aligned.topRightCorner<3, 1>());
-  errors.ate_m = std::sqrt((moved - columns(truth)).colwise().squaredNorm().mean());
+  errors.ate_m = test::absolute_error_m(estimate, truth);
   return errors;
 }
 
