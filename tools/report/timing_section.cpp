@@ -23,6 +23,14 @@ std::vector<double> seconds_since_start(const CsvTable& groups) {
   return stamps;
 }
 
+/// The stages that a group passes; what else is in ms are offsets.
+std::vector<std::string> stages_of(const CsvTable& groups) {
+  std::vector<std::string> columns;
+  for (const char* stage : {"track_ms", "keyframe_ms", "latency_ms"})
+    if (groups.has(stage)) columns.emplace_back(stage);
+  return columns;
+}
+
 /// "track_ms" -> "track"
 std::string stage_name(const std::string& column) {
   return column.substr(0, column.size() - 3);
@@ -39,7 +47,7 @@ std::string from_json(const nlohmann::json& summary, const char* key) {
 
 std::string group_times_table(const CsvTable& groups) {
   std::vector<std::vector<std::string>> rows = {{"each group, ms", "p50", "p95", "p99", "max"}};
-  for (const std::string& column : groups.names_ending("_ms")) {
+  for (const std::string& column : stages_of(groups)) {
     const auto values = groups.numbers(column);
     rows.push_back({stage_name(column), ms(percentile(values, 0.5)), ms(percentile(values, 0.95)),
                     ms(percentile(values, 0.99)), ms(percentile(values, 1.0))});
@@ -64,7 +72,7 @@ std::string times_plot(const CsvTable& groups) {
   Plot plot{"Time of each stage", "time (s)", "ms per group", {}};
   plot.include_zero = true;
   std::size_t next = 0;
-  for (const std::string& column : groups.names_ending("_ms")) {
+  for (const std::string& column : stages_of(groups)) {
     plot.series.push_back({stage_name(column), kColours[next++ % std::size(kColours)],
                            seconds_since_start(groups), groups.numbers(column)});
   }

@@ -82,6 +82,15 @@ TEST(WriteReport, ThePageStandsAlone) {
   EXPECT_LT(std::filesystem::file_size(folder / "report.html"), 3'000'000U);
 }
 
+TEST(WriteReport, AnOffsetIsNoTimeOfAStage) {
+  const auto folder = folder_named("stages");
+  ASSERT_TRUE(make_run_folder(folder));
+  ASSERT_TRUE(write_report({folder, {}, 1}));
+  const std::string page = text_of_page(folder);
+  EXPECT_NE(page.find("keyframe</"), std::string::npos);
+  EXPECT_EQ(page.find("lidar_delay"), std::string::npos);
+}
+
 TEST(WriteReport, OffsetsStandWhereTheyWereEstimated) {
   const auto folder = folder_named("offsets");
   ASSERT_TRUE(make_run_folder(folder));

@@ -42,7 +42,7 @@ Status write_groups(const std::filesystem::path& folder) {
   std::string csv =
       "stamp_s,state,points_in_group,points_used,residual_rms_m,frozen_directions,weakest_signal,visual_"
       "patches,"
-      "log_gain,track_ms,keyframe_ms,latency_ms\n";
+      "log_gain,lidar_delay_ms,track_ms,keyframe_ms,latency_ms\n";
   for (int i = 0; i < kGroups; ++i) {
     const double track_ms = 18.0 + 2.0 * normal(random) + (i % 50 == 0 ? 15.0 : 0.0);
     const double keyframe_ms = i % 5 == 0 ? 6.0 : 0.5;
@@ -52,7 +52,7 @@ Status write_groups(const std::filesystem::path& folder) {
                                  : "tracking") +
            "," + std::to_string(20000 + i % 7 * 100) + "," + std::to_string(1800 + i % 11 * 10) + "," +
            std::to_string(0.012 + 0.001 * std::abs(normal(random))) +
-           (i >= 80 && i < 100 ? ",1,1.2," : ",0,40,") + std::to_string(200 + i % 40) + ",0.05," +
+           (i >= 80 && i < 100 ? ",1,1.2," : ",0,40,") + std::to_string(200 + i % 40) + ",0.05," + "0.000," +
            std::to_string(track_ms) + "," + std::to_string(keyframe_ms) + "," +
            std::to_string(track_ms + keyframe_ms + 4.0) + "\n";
   }
