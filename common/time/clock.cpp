@@ -23,4 +23,18 @@ void VirtualClock::advance_to(HostTime t) {
   }
 }
 
+ClockPair read_clocks(const Clock& clock, const std::function<std::int64_t()>& wall_ns) {
+  constexpr int kTries = 5;
+  constexpr nanoseconds kNarrow = std::chrono::microseconds(20);
+  ClockPair best;
+  for (int i = 0; i < kTries; ++i) {
+    const HostTime before = clock.now();
+    const std::int64_t wall = wall_ns();
+    const nanoseconds spread = clock.now() - before;
+    if (i == 0 || spread < best.spread) best = {wall, before + spread / 2, spread};
+    if (best.spread <= kNarrow) break;
+  }
+  return best;
+}
+
 }  // namespace edgesplat

@@ -5,6 +5,8 @@
 #include "common/time/time.hpp"
 
 #include <atomic>
+#include <cstdint>
+#include <functional>
 
 namespace edgesplat {
 
@@ -36,5 +38,20 @@ class VirtualClock final : public Clock {
  private:
   std::atomic<std::int64_t> now_ns_;
 };
+
+/// The wall clock and the program's at one moment.
+struct ClockPair {
+  std::int64_t wall_ns = 0;
+  HostTime host{};
+  nanoseconds spread{};  ///< the two were read at most half of this apart
+
+  /// What the wall clock showed `wall` at, as long as it was not set meanwhile.
+  [[nodiscard]] HostTime host_at(std::int64_t wall) const { return host - nanoseconds(wall_ns - wall); }
+};
+
+/// Reads both, between two readings of the program's clock; again, a few times, where the thread was held up
+/// in between. `wall_ns`: what stamps are made with.
+[[nodiscard]] ClockPair read_clocks(const Clock& clock,
+                                    const std::function<std::int64_t()>& wall_ns = wall_clock_ns);
 
 }  // namespace edgesplat

@@ -54,7 +54,8 @@ void PpsInput::receive(const std::stop_token& stop, const Sink& sink) {
 void PpsInput::on_edge(const sync::PpsEdge& edge, const Sink& sink) {
   if (!track_.add(edge)) return;
   // The kernel stamps with the wall clock; the edge's age carries it to the program's.
-  const std::int64_t age_ns = wall_ns_() - edge.wall_ns;
+  const ClockPair now = read_clocks(*clock_, wall_ns_);
+  const std::int64_t age_ns = now.wall_ns - edge.wall_ns;
   if (age_ns < 0 || age_ns > kOldest_ns) {
     ++counters_.stale;
     return;
@@ -69,7 +70,7 @@ void PpsInput::on_edge(const sync::PpsEdge& edge, const Sink& sink) {
   }
   ++counters_.told;
   note(true, "pulses come");
-  sink(clock_->now() - nanoseconds(age_ns), *utc_ns);
+  sink(now.host_at(edge.wall_ns), *utc_ns);
 }
 
 /// One line for each change.

@@ -226,9 +226,10 @@ RawFrame AravisCamera::Device::to_frame(ArvBuffer* buffer) {
   RawFrame frame;
   frame.number = static_cast<std::uint16_t>(arv_buffer_get_frame_id(buffer));
   // Aravis notes the wall clock when the first packet comes; its age carries it to the program's clock.
+  const ClockPair now = read_clocks(clock_);
   const std::int64_t age_ns =
-      g_get_real_time() * 1000 - static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
-  frame.arrival = clock_.now() - nanoseconds(std::clamp<std::int64_t>(age_ns, 0, 1'000'000'000));
+      now.wall_ns - static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
+  frame.arrival = now.host - nanoseconds(std::clamp<std::int64_t>(age_ns, 0, 1'000'000'000));
   frame.complete = arv_buffer_get_status(buffer) == ARV_BUFFER_STATUS_SUCCESS;
   if (!frame.complete) return frame;
   const auto payload = arv_buffer_get_payload_type(buffer);

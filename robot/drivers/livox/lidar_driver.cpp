@@ -82,7 +82,7 @@ Status LidarDriver::step(const std::stop_token& stop) {
   for (const Datagram& datagram : batch) handle(datagram, now);
   watch_clock();
   if (!session_) return {};
-  tell_time(now);
+  tell_time();
   if (std::exchange(step_is_due_, false) || now >= next_step_) {
     next_step_ = session_->step(now);
   }
@@ -96,10 +96,11 @@ void LidarDriver::on_pulse(HostTime edge, std::int64_t utc_ns) {
 }
 
 /// What the session has to know of UTC before its next step.
-void LidarDriver::tell_time(HostTime now) {
+void LidarDriver::tell_time() {
   if (!session_->config().feeds_utc) return;
   if (!sees_pulses_) {
-    session_->utc_feed().follow_wall_clock(now, wall_clock_ns());
+    const ClockPair clocks = read_clocks(clock_);
+    session_->utc_feed().follow_wall_clock(clocks.host, clocks.wall_ns);
     return;
   }
   std::optional<Pulse> pulse;

@@ -78,7 +78,7 @@ class LidarDriver {
   void handle(const Datagram& datagram, HostTime now);
   void watch_clock();
   void flush_session();
-  void tell_time(HostTime now);
+  void tell_time();
 
   const Clock& clock_;
   Outputs outputs_;

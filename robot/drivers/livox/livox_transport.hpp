@@ -45,8 +45,8 @@ struct TransportCounters {
 
 /// The UDP sockets of a Livox sensor: points and IMU, with `control` also commands and states. Arrival is the
 /// kernel's stamp of the datagram (SO_TIMESTAMPNS, on the wall clock), carried over to the program's clock by
-/// its age: a step of the wall clock changes nothing, a busy program does not shift arrivals. Thread-bound
-/// (one thread calls receive()); no allocation after open().
+/// its age: a step of the wall clock changes nothing, a busy program does not shift arrivals. Those of a
+/// channel never go back. Thread-bound (one thread calls receive()); no allocation after open().
 class LivoxTransport {
  public:
   /// kIo where a port is taken, with the program that holds it; kInvalidConfig for addresses that are none.

@@ -130,8 +130,7 @@ Result<std::span<const Datagram>> UdpChannel::receive(const Clock& clock, Transp
     return fail(Errc::kIo, "cannot read " + channel_name(channel_) +
                                " packets: " + std::generic_category().message(errno));
   }
-  const std::int64_t wall_now_ns = wall_clock_ns();
-  const HostTime now = clock.now();
+  const ClockPair now = read_clocks(clock);
   std::size_t count = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(received); ++i) {
     const KernelNotes notes = read_notes(headers_[i].msg_hdr);
@@ -140,9 +139,11 @@ Result<std::span<const Datagram>> UdpChannel::receive(const Clock& clock, Transp
       ++counters.foreign;
       continue;
     }
-    const std::int64_t age_ns = notes.wall_ns == 0 ? 0 : wall_now_ns - notes.wall_ns;
-    const bool believable = age_ns >= 0 && age_ns <= kOldest_ns;
-    datagrams_[count++] = {channel_, now - nanoseconds(believable ? age_ns : 0),
+    const std::int64_t age_ns = now.wall_ns - notes.wall_ns;
+    const bool believable = notes.wall_ns != 0 && age_ns >= 0 && age_ns <= kOldest_ns;
+    // In the order of the socket, whatever the clocks say: a recording is replayed in the order of arrivals.
+    newest_arrival_ = std::max(newest_arrival_, believable ? now.host_at(notes.wall_ns) : now.host);
+    datagrams_[count++] = {channel_, newest_arrival_,
                            std::span<const std::byte>(slots_[i].bytes).first(headers_[i].msg_len),
                            endpoint_of(slots_[i].sender)};
     ++counters.datagrams;

@@ -60,6 +60,7 @@ class UdpChannel {
   std::uint16_t port_ = 0;
   int granted_buffer_bytes_ = 0;
   std::uint32_t drops_seen_ = 0;
+  HostTime newest_arrival_ = HostTime::min();
   std::vector<Slot> slots_;
   std::array<mmsghdr, kBatch> headers_{};
   std::array<Datagram, kBatch> datagrams_{};

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <thread>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace edgesplat {
 namespace {
@@ -57,6 +60,59 @@ TEST(SteadyClock, DoesNotGoBack) {
   const SteadyClock clock;
   const HostTime first = clock.now();
   EXPECT_GE(clock.now(), first);
+}
+
+/// A wall clock 100 s ahead of the program's; after each reading the thread is held up for a while.
+class HeldUpWallClock {
+ public:
+  explicit HeldUpWallClock(std::vector<std::int64_t> holds_ns) : holds_ns_(std::move(holds_ns)) {}
+  static constexpr std::int64_t kAhead_ns = 100'000'000'000;
+  std::int64_t operator()() {
+    const std::int64_t shown_ns = to_ns(clock.now()) + kAhead_ns;
+    if (readings < holds_ns_.size()) clock.advance_to(clock.now() + nanoseconds(holds_ns_[readings]));
+    ++readings;
+    return shown_ns;
+  }
+  VirtualClock clock{host_time_from_ns(1'000)};
+  std::size_t readings = 0;
+
+ private:
+  std::vector<std::int64_t> holds_ns_;
+};
+
+std::int64_t apart_ns(const ClockPair& pair) {
+  return pair.wall_ns - to_ns(pair.host) - HeldUpWallClock::kAhead_ns;
+}
+
+TEST(ReadClocks, OnceWhereNothingComesBetween) {
+  HeldUpWallClock wall({});
+  const ClockPair pair = read_clocks(wall.clock, std::ref(wall));
+  EXPECT_EQ(wall.readings, 1U);
+  EXPECT_EQ(apart_ns(pair), 0);
+  EXPECT_EQ(pair.spread.count(), 0);
+  EXPECT_EQ(to_ns(pair.host_at(pair.wall_ns - 300)), to_ns(pair.host) - 300);
+}
+
+TEST(ReadClocks, AgainWhereTheThreadWasHeldUp) {
+  HeldUpWallClock wall({5'000'000, 7'000'000});
+  EXPECT_EQ(apart_ns(read_clocks(wall.clock, std::ref(wall))), 0);
+  EXPECT_EQ(wall.readings, 3U);
+}
+
+TEST(ReadClocks, TheNearestWhereItAlwaysIs) {
+  HeldUpWallClock wall({5'000'000, 3'000'000, 1'000'000, 4'000'000, 2'000'000, 0});
+  const ClockPair pair = read_clocks(wall.clock, std::ref(wall));
+  EXPECT_EQ(wall.readings, 5U) << "it does not try forever";
+  EXPECT_EQ(pair.spread.count(), 1'000'000);
+  EXPECT_EQ(apart_ns(pair), -500'000);
+}
+
+TEST(ReadClocks, TakesTheSystemsWallClock) {
+  const SteadyClock clock;
+  const std::int64_t before_ns = wall_clock_ns();
+  const ClockPair pair = read_clocks(clock);
+  EXPECT_GE(pair.wall_ns, before_ns);
+  EXPECT_LE(pair.host, clock.now());
 }
 
 }  // namespace

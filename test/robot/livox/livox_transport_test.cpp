@@ -10,6 +10,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 #include <vector>
@@ -79,6 +80,44 @@ TEST(LivoxTransport, ReceivesBothChannelsInOrderOfArrival) {
   }
   EXPECT_EQ(order, (std::vector{std::byte{1}, std::byte{2}, std::byte{3}}));
   EXPECT_EQ(transport->counters().datagrams - before_count, 3U);
+}
+
+/// A thread that is held up for 4 ms before every third reading of its clock.
+class HeldUpClock final : public Clock {
+ public:
+  [[nodiscard]] HostTime now() const override {
+    if (++readings_ % 3 == 0) std::this_thread::sleep_for(4ms);
+    return clock_.now();
+  }
+
+ private:
+  SteadyClock clock_;
+  mutable std::atomic<int> readings_{0};
+};
+
+/// A recording is replayed in the order of arrivals: one that is too late would pass its successors by.
+TEST(LivoxTransport, ArrivalsNeverGoBackWhereTheThreadIsHeldUp) {
+  const HeldUpClock clock;
+  auto transport = LivoxTransport::open(loopback(), clock);
+  ASSERT_TRUE(transport.has_value());
+  ASSERT_TRUE(stamps_are_on(*transport, clock));
+  const std::stop_source stop;
+  std::jthread sender([port = transport->points_port()] {
+    for (int i = 0; i < 200; ++i) {
+      send_to(port, 100, std::byte{1});
+      std::this_thread::sleep_for(500us);
+    }
+  });
+  HostTime newest = HostTime::min();
+  for (int received = 0; received < 200;) {
+    const auto batch = transport->receive(stop.get_token(), 5s);
+    ASSERT_TRUE(batch.has_value() && !batch->empty()) << "after " << received;
+    for (const Datagram& datagram : *batch) {
+      EXPECT_GE(datagram.arrival, newest) << "datagram " << received;
+      newest = datagram.arrival;
+      ++received;
+    }
+  }
 }
 
 TEST(LivoxTransport, StopAndTimeoutEndTheWait) {
