@@ -43,11 +43,12 @@ std::optional<BorderedPatch> cut_patch(const sensor::ImageGray8& picture, const 
   return patch;
 }
 
-bool sample_patch(const sensor::ImageGray8& picture, const Eigen::Vector2f& centre_px,
-                  const Eigen::Matrix2f& step, PatchValues& values) {
-  const Eigen::Vector2f reach = kHalf * step.cwiseAbs().rowwise().sum();
-  if (!fits(centre_px.x(), reach.x(), picture.width_px) ||
-      !fits(centre_px.y(), reach.y(), picture.height_px)) {
+bool sample_patch(const sensor::ImageGray8& picture, const PatchWarp& warp, PatchValues& values) {
+  const float nearest = 1.0F - kHalf * warp.growth.cwiseAbs().sum();
+  if (!(nearest > 0.5F)) return false;
+  const Eigen::Vector2f reach = kHalf / nearest * warp.step.cwiseAbs().rowwise().sum();
+  if (!fits(warp.centre_px.x(), reach.x(), picture.width_px) ||
+      !fits(warp.centre_px.y(), reach.y(), picture.height_px)) {
     return false;
   }
   std::size_t i = 0;
@@ -55,8 +56,10 @@ bool sample_patch(const sensor::ImageGray8& picture, const Eigen::Vector2f& cent
     const float dy = static_cast<float>(row) - kHalf;
     for (int column = 0; column < kPatchSide; ++column, ++i) {
       const float dx = static_cast<float>(column) - kHalf;
-      values[i] = value_at(picture, centre_px.x() + step(0, 0) * dx + step(0, 1) * dy,
-                           centre_px.y() + step(1, 0) * dx + step(1, 1) * dy);
+      const float shrink = 1.0F / (1.0F + warp.growth.x() * dx + warp.growth.y() * dy);
+      values[i] =
+          value_at(picture, warp.centre_px.x() + shrink * (warp.step(0, 0) * dx + warp.step(0, 1) * dy),
+                   warp.centre_px.y() + shrink * (warp.step(1, 0) * dx + warp.step(1, 1) * dy));
     }
   }
   return true;

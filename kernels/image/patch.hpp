@@ -24,10 +24,21 @@ using PatchValues = std::array<float, kPatchPixels>;
 [[nodiscard]] std::optional<BorderedPatch> cut_patch(const sensor::ImageGray8& picture,
                                                      const Eigen::Vector2f& centre_px);
 
-/// Values at centre + step * offset, bilinear: the patch as a picture taken from elsewhere shows it. False,
-/// with `values` untouched, where it would leave the picture.
-[[nodiscard]] bool sample_patch(const sensor::ImageGray8& picture, const Eigen::Vector2f& centre_px,
-                                const Eigen::Matrix2f& step, PatchValues& values);
+/// Where a patch's pixels lie in a picture taken from elsewhere: offset o at centre + step o / (1 +
+/// growth'o). For a plane and pinhole cameras that is exact (a homography about the patch's centre).
+struct PatchWarp {
+  Eigen::Vector2f centre_px = Eigen::Vector2f::Zero();
+  Eigen::Matrix2f step =
+      Eigen::Matrix2f::Identity();  ///< pixels for a step of one patch pixel, at the centre
+  /// By how much of itself the depth grows a patch pixel right and down, less the same in the patch's
+  /// picture.
+  Eigen::Vector2f growth = Eigen::Vector2f::Zero();
+};
+
+/// Values there, bilinear. False, with `values` untouched, where the patch would leave the picture, or its
+/// depth change by half.
+[[nodiscard]] bool sample_patch(const sensor::ImageGray8& picture, const PatchWarp& warp,
+                                PatchValues& values);
 
 /// A reference patch made ready for alignment.
 struct PatchTemplate {

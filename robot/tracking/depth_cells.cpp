@@ -16,6 +16,8 @@ constexpr float kApart_m = 0.08F;
 constexpr float kApartShare = 0.01F;
 /// A third of the points near a pixel must say so: single returns from edges do not count.
 constexpr int kWitnessShare = 3;
+/// How far off the mean of all may be.
+constexpr float kMeanSigmas = 1.5F;
 
 }  // namespace
 
@@ -69,12 +71,17 @@ void DepthCells::around(const Eigen::Vector2f& pixel, const Visit& visit) const 
 
 bool DepthCells::agree(const PlaneInView& plane) const {
   int near = 0, apart = 0;
+  float sum_m = 0.0F;
   around(plane.pixel, [&](const Seen& seen) {
     const float off = plane.normal_in_camera.dot(seen.p_in_camera_m - plane.p_in_camera_m);
     ++near;
+    sum_m += off;
     if (std::abs(off) > kApart_m + kApartShare * seen.p_in_camera_m.z()) ++apart;
   });
-  return apart == 0 || apart * kWitnessShare < near;
+  if (apart > 0 && apart * kWitnessShare >= near) return false;
+  if (!noise_) return true;
+  const float variance_m2 = noise_->variance_along(plane.p_in_camera_m, plane.normal_in_camera);
+  return sum_m * sum_m <= kMeanSigmas * kMeanSigmas * static_cast<float>(near) * variance_m2;
 }
 
 std::optional<Eigen::Vector3f> DepthCells::nearest(const Eigen::Vector2f& pixel) const {

@@ -37,7 +37,7 @@ PatchResidual::PatchResidual(const image::BorderedPatch& reference, const PatchN
 bool PatchResidual::evaluate(const sensor::ImageGray8& picture, const PatchView& view,
                              PatchEquations& equations) const {
   image::PatchValues seen;
-  if (!image::sample_patch(picture, view.centre_px, view.step, seen)) return false;
+  if (!image::sample_patch(picture, view.warp, seen)) return false;
   const Pixels r = pixels_of(seen) + kToeGrey - view.gain * pixels_of(template_.value);
   const Eigen::Vector4f scale(view.gain, view.gain, view.gain, 1.0F);
   const float weight = 1.0F / (noise_.pixel * noise_.pixel);
@@ -47,7 +47,7 @@ bool PatchResidual::evaluate(const sensor::ImageGray8& picture, const PatchView&
                                                   (r * pixels_of(template_.dy)).sum(),
                                                   (r * pixels_of(template_.value)).sum(), r.sum()));
 
-  const Eigen::Matrix2f patch_by_pixel = view.step.inverse();
+  const Eigen::Matrix2f patch_by_pixel = view.warp.step.inverse();
   Eigen::Matrix<float, 4, 3> nuisance = Eigen::Matrix<float, 4, 3>::Zero();
   nuisance(3, 0) = noise_.offset;
   nuisance.block<2, 1>(0, 1) = patch_by_pixel * view.pixel_by_doubt;

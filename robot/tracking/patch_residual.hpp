@@ -25,8 +25,7 @@ inline constexpr float kToeGrey = 14.0F;
 
 /// Where a patch is in the present picture, and how that depends on the pose.
 struct PatchView {
-  Eigen::Vector2f centre_px;                 ///< in the pyramid level that is sampled
-  Eigen::Matrix2f step;                      ///< pixels there for a step of one patch pixel
+  image::PatchWarp warp;                     ///< in the pyramid level that is sampled
   Eigen::Matrix<float, 2, 6> pixel_by_pose;  ///< d centre / d (rotation, position)
   Eigen::Vector2f pixel_by_doubt;            ///< d centre / d (one sigma of the point's place)
   float gain = 1.0F;                         ///< present picture over reference
@@ -45,7 +44,7 @@ class PatchResidual {
  public:
   PatchResidual(const image::BorderedPatch& reference, const PatchNoise& noise);
 
-  /// Residuals I(centre + step o) + toe - gain (T(o) + toe) with the linearisation. The patch's offset and
+  /// Residuals I(warp(o)) + toe - gain (T(o) + toe) with the linearisation. The patch's offset and
   /// the point's doubt along its first ray are unknowns of their own, each with a prior, and eliminated: a
   /// wrong depth then costs no more than what it could move. False where the patch leaves the picture.
   [[nodiscard]] bool evaluate(const sensor::ImageGray8& picture, const PatchView& view,

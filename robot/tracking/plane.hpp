@@ -28,7 +28,8 @@ struct PointSums {
 
 /// A plane with its uncertainty. A point p has the signed distance n'(p - centre).
 struct Plane {
-  Eigen::Vector3f normal;
+  Eigen::Vector3f normal;           ///< towards where it was seen from, once it is in a map
+  Eigen::Vector3f seen_from;        ///< unit vector to the LiDAR that saw it, about the latest
   Eigen::Vector3f centre_m;         ///< mean of the points, relative to the cell's centre
   Symmetric3f normal_covariance;    ///< of the normal: zero along itself
   float offset_variance_m2 = 0.0F;  ///< of n' centre

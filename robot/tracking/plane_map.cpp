@@ -39,7 +39,8 @@ float PlaneMap::quarter_edge(int layer) const {
   return static_cast<float>(std::ldexp(config_.root_voxel_m, -2 - layer));
 }
 
-void PlaneMap::insert(const MapPoint& point) {
+void PlaneMap::insert(const MapPoint& point, const Eigen::Vector3d& lidar_in_odom_m) {
+  to_lidar_m_ = (lidar_in_odom_m - point.p_in_odom_m).cast<float>();
   const Index3 index = cell_index(point.p_in_odom_m, inverse_root_);
   const Eigen::Vector3d centre = (index.cast<double>().array() + 0.5) * config_.root_voxel_m;
   const GatheredPoint local{(point.p_in_odom_m - centre).cast<float>(), point.covariance_m2,
@@ -81,7 +82,7 @@ void PlaneMap::gather(CellRef ref, const GatheredPoint& point, int layer) {
   if (fit.verdict == PlaneVerdict::kPlane) {
     here.state = CellState::kPlane;
     here.plane = planes_.allocate();
-    planes_[here.plane] = fit.plane;
+    planes_[here.plane] = as_seen(fit.plane);
     gathered_.release(here.gathered);
     here.gathered = kNone;
     return;
@@ -120,7 +121,7 @@ void PlaneMap::refine(CellRef ref, const GatheredPoint& point, int layer) {
   const PlaneFit fit = fit_plane(here.sums, config_.plane_sigma_max_m);
   if (fit.verdict == PlaneVerdict::kPlane) {
     if (here.plane == kNone) here.plane = planes_.allocate();
-    planes_[here.plane] = fit.plane;
+    planes_[here.plane] = as_seen(fit.plane);
     here.state = CellState::kPlane;
     return;
   }
@@ -158,6 +159,14 @@ PlaneMatch PlaneMap::find_beyond_face(const Eigen::Vector3d& p) const {
   index(axis) += p(axis) >= centre(axis) ? 1 : -1;
   const Eigen::Vector3d neighbour = (index.cast<double>().array() + 0.5) * config_.root_voxel_m;
   return find_in(index, (p - neighbour).cast<float>());
+}
+
+/// A plane is fitted anew when a point comes: it faces the LiDAR that saw it.
+Plane PlaneMap::as_seen(const Plane& fitted) const {
+  Plane plane = fitted;
+  if (plane.normal.dot(to_lidar_m_) < 0.0F) plane.normal = -plane.normal;
+  plane.seen_from = to_lidar_m_.normalized();
+  return plane;
 }
 
 void PlaneMap::release_cell(Cell& here) {

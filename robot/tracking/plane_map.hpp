@@ -45,7 +45,8 @@ class PlaneMap {
  public:
   explicit PlaneMap(const PlaneMapConfig& config);
 
-  void insert(const MapPoint& point);
+  /// `lidar_in_odom_m`: where it was seen from.
+  void insert(const MapPoint& point, const Eigen::Vector3d& lidar_in_odom_m);
   /// The plane of the smallest cell that holds the point and has one; nothing where the map is empty or
   /// rough.
   [[nodiscard]] PlaneMatch find(const Eigen::Vector3d& p_in_odom_m) const;
@@ -105,6 +106,7 @@ class PlaneMap {
                                    Eigen::Vector3f offset) const;
   void release_cell(Cell& cell);
   void erase_root(std::uint32_t root);
+  [[nodiscard]] Plane as_seen(const Plane& fitted) const;
   [[nodiscard]] float quarter_edge(int layer) const;
 
   PlaneMapConfig config_;
@@ -116,6 +118,7 @@ class PlaneMap {
   std::vector<std::uint32_t> table_;  ///< open addressing: kNone or index in roots_
   std::size_t root_slots_ = 0;        ///< roots ever allocated, to walk over all
   Eigen::Vector3d last_slide_m_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3f to_lidar_m_ = Eigen::Vector3f::UnitZ();  ///< from the point that is being inserted
   std::int64_t evicted_roots_ = 0;
 };
 

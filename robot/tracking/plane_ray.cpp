@@ -12,6 +12,7 @@ constexpr double kFarthest_m = 25.0;
 constexpr double kStep_m = 0.2;
 constexpr double kMinFacing = 0.17;
 constexpr double kMaxAlongSigma_m = 0.1;
+constexpr float kSeenAlike = 0.6F;  // cosine
 /// A hit must lie within this many standard deviations of its plane's points around their centre.
 constexpr float kReachSigma = 2.5F;
 
@@ -44,13 +45,11 @@ std::optional<PlaneHit> meet_plane(const PlaneMap& map, const OdomRay& ray, cons
   if (across > kReachSigma * kReachSigma * match.plane->reach_m2) return std::nullopt;
   const double facing = match.plane->normal.cast<double>().dot(ray.direction);
   const double sigma_m = std::sqrt(static_cast<double>(match.plane->variance_at(match.from_centre_m)));
-  if (std::abs(facing) < kMinFacing || std::abs(static_cast<double>(above)) > 3.0 * sigma_m + 0.01) {
+  if (facing > -kMinFacing || std::abs(static_cast<double>(above)) > 3.0 * sigma_m + 0.01)
     return std::nullopt;
-  }
-  const double along_m = sigma_m / std::abs(facing);
+  const double along_m = sigma_m / -facing;
   if (along_m > kMaxAlongSigma_m) return std::nullopt;
-  const Eigen::Vector3f normal = facing > 0.0 ? Eigen::Vector3f(-match.plane->normal) : match.plane->normal;
-  return PlaneHit{place, normal, static_cast<float>(along_m)};
+  return PlaneHit{place, match.plane->normal, static_cast<float>(along_m), match.plane->seen_from};
 }
 
 std::optional<PlaneHit> first_plane(const PlaneMap& map, const OdomRay& ray) {
@@ -61,7 +60,10 @@ std::optional<PlaneHit> first_plane(const PlaneMap& map, const OdomRay& ray) {
     const float above = match.plane->normal.dot(match.from_centre_m);
     const double facing = std::abs(match.plane->normal.cast<double>().dot(ray.direction));
     if (static_cast<double>(std::abs(above)) > kStep_m * facing) continue;  // met in another step
-    if (const auto hit = meet_plane(map, ray, place)) return hit;
+    const auto hit = meet_plane(map, ray, place);
+    if (!hit) continue;
+    const bool seen_alike = -hit->seen_from.dot(ray.direction.cast<float>()) > kSeenAlike;
+    return seen_alike ? hit : std::nullopt;
   }
   return std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include "robot/tracking/point_noise.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace edgesplat::tracking {
 
@@ -18,6 +19,16 @@ Eigen::Matrix3f unpack(const Symmetric3f& packed) {
   symmetric << packed(0), packed(1), packed(2), packed(1), packed(3), packed(4), packed(2), packed(4),
       packed(5);
   return symmetric;
+}
+
+PointNoise largest_noise(const sensor::Rig& rig) {
+  sensor::LidarModel largest = rig.lidar;
+  for (std::size_t unit = 1; unit < rig.lidar_count(); ++unit) {
+    const sensor::LidarModel model = rig.mount_of(unit).model;
+    largest.range_sigma_m = std::max(largest.range_sigma_m, model.range_sigma_m);
+    largest.bearing_sigma_rad = std::max(largest.bearing_sigma_rad, model.bearing_sigma_rad);
+  }
+  return PointNoise(largest);
 }
 
 Eigen::Matrix3f PointNoise::covariance(const Eigen::Vector3f& ray_m) const {

@@ -38,6 +38,9 @@ class PointNoise {
   float bearing_variance_;
 };
 
+/// Of the LiDARs of a rig, the largest of each kind.
+[[nodiscard]] PointNoise largest_noise(const sensor::Rig& rig);
+
 /// Where the rays of one LiDAR begin, and how noisy they are.
 struct Beam {
   Eigen::Vector3f lidar_in_body_m;

@@ -51,7 +51,7 @@ Tracker::Impl::Impl(const TrackingConfig& config_in, const sensor::Rig& rig_in, 
       rest(rig_in.imu.value_or(sensor::ImuModel{})),
       watch(calibration_config(config_in, rig_in)),
       with_imu(rig_in.imu.has_value()) {
-  if (config.visual && rig.camera) visual.emplace(config, *rig.camera, loop);
+  if (config.visual && rig.camera) visual.emplace(config, *rig.camera, largest_noise(rig), loop);
   for (std::size_t unit = 0; unit < rig.lidar_count(); ++unit) beams.push_back(beam_of(rig.mount_of(unit)));
   if (with_imu && gravity == Gravity::kFelt) moving_start = std::make_unique<MovingStart>(config, rig);
   if (config.gaussian_every > 0 && rig.camera)
@@ -311,7 +311,7 @@ Result<TrackedGroup> Tracker::Impl::track(const sync::MeasureGroup& group) {
   belief_time = at;
   unseen_steps = result.observed.frozen_steps;
   last_end = group.end;
-  const VisualUpdateResult picture = see(group, result);
+  const VisualUpdateResult picture = see(group);
   const GaussianUpdateResult gaussians = look_at_gaussians(group, result);
   if (!picture.updated) use_rest(result);
   judge(result, picture, to_seconds(group.end - group.begin));

@@ -74,7 +74,7 @@ struct Tracker::Impl {
   /// Rest tells the speed along what the LiDAR does not see.
   void use_rest(const ScanUpdateResult& result);
   /// The picture's update, at the moment of the LiDAR's.
-  VisualUpdateResult see(const sync::MeasureGroup& group, const ScanUpdateResult& scan);
+  VisualUpdateResult see(const sync::MeasureGroup& group);
   /// The Gaussian map's update, after the picture's patches.
   GaussianUpdateResult look_at_gaussians(const sync::MeasureGroup& group, const ScanUpdateResult& scan);
   void extend_map(const ScanUpdateResult& update);

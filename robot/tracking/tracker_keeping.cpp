@@ -89,7 +89,7 @@ void Tracker::Impl::judge(const ScanUpdateResult& scan, const VisualUpdateResult
 
 void Tracker::Impl::begin_again() {
   map = PlaneMap(map_config(config));
-  if (visual) visual.emplace(config, *rig.camera, loop);
+  if (visual) visual.emplace(config, *rig.camera, largest_noise(rig), loop);
   keeper.restart();
   searches = 0;
   ++counters.map_restarts;
@@ -132,7 +132,9 @@ void Tracker::Impl::insert_points(std::span<const Eigen::Vector3f> points,
       map_points[i].pose_covariance_m2 = pack(turned * rotation_noise * turned.transpose() + position_noise);
     }
   });
-  for (const MapPoint& point : map_points) map.insert(point);
+  std::vector<Eigen::Vector3d> lidars_in_odom_m;
+  for (const Beam& beam : beams) lidars_in_odom_m.push_back(pose * beam.lidar_in_body_m.cast<double>());
+  for (std::size_t i = 0; i < kept.size(); ++i) map.insert(map_points[i], lidars_in_odom_m[units[kept[i]]]);
 }
 
 }  // namespace edgesplat::tracking

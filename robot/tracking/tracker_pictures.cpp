@@ -13,7 +13,7 @@ GaussianUpdateConfig gaussian_config(const TrackingConfig& config) {
 }
 
 // Without an IMU the pose is that of the middle of the points' times, not the picture's.
-VisualUpdateResult Tracker::Impl::see(const sync::MeasureGroup& group, const ScanUpdateResult& scan) {
+VisualUpdateResult Tracker::Impl::see(const sync::MeasureGroup& group) {
   picture_taken = false;
   patches.clear();
   if (!visual || !group.image || !group.image->image || !with_imu) return {};
@@ -22,8 +22,7 @@ VisualUpdateResult Tracker::Impl::see(const sync::MeasureGroup& group, const Sca
     ++counters.unused_pictures;
     return {};
   }
-  VisualUpdateResult result = visual->update(
-      *belief, sweep.points_in_body_m(), !scan.updated || scan.observed.frozen > 0, picture_calibration());
+  VisualUpdateResult result = visual->update(*belief, sweep.points_in_body_m(), picture_calibration());
   if (!result.updated) return result;
   ++counters.visual_updates;
   patches = visual->tracked_patches(picture_calibration());

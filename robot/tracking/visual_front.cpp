@@ -15,10 +15,6 @@ constexpr int kMaxWidth_px = 640;
 constexpr double kGainSigma = 0.3;
 /// Of the log gain that a known exposure makes: vignetting, and that no camera encodes exactly as sRGB does.
 constexpr double kExposureSigma = 0.05;
-/// The part of independent pixels that those of a patch count as, in simulation: little beside a LiDAR that
-/// sees every direction, whose map drifts less than the points do, more where the picture is all there is.
-constexpr double kShareBesideLidar = 0.005;
-constexpr double kShareAlone = 0.03;
 /// A picture whose coarsest level varies less than this (grey levels) shows nothing.
 constexpr double kMinContrast = 2.0;
 
@@ -50,7 +46,8 @@ std::optional<double> log_gain_of(const sync::GroupImage& picture) {
 
 }  // namespace
 
-VisualFront::VisualFront(const TrackingConfig& config, const sensor::CameraMount& camera, BlockLoop& loop)
+VisualFront::VisualFront(const TrackingConfig& config, const sensor::CameraMount& camera,
+                         const PointNoise& scan_noise, BlockLoop& loop)
     : config_(config),
       full_(camera.model),
       camera_(image::halved(camera.model, halvings(camera.model))),
@@ -58,7 +55,8 @@ VisualFront::VisualFront(const TrackingConfig& config, const sensor::CameraMount
       skip_(halvings(camera.model)),
       grid_(camera_.width_px, camera_.height_px),
       updater_({}, loop),
-      map_(static_cast<std::size_t>(config.visual_map_max_mb) << 20U) {}
+      map_(static_cast<std::size_t>(config.visual_map_max_mb) << 20U),
+      depths_(scan_noise) {}
 
 bool VisualFront::take(const sync::GroupImage& picture) {
   if (picture.image->width_px != full_.width_px || picture.image->height_px != full_.height_px) return false;
@@ -85,7 +83,7 @@ FilterBelief VisualFront::with_gain(const FilterBelief& prior) const {
 }
 
 VisualUpdateResult VisualFront::update(const FilterBelief& prior, std::span<const Eigen::Vector3f> points,
-                                       bool alone, const CalibrationView* calibration) {
+                                       const CalibrationView* calibration) {
   const FilterBelief before = pictures_ > 0 ? with_gain(prior) : prior;
   const geometry::RigidTransform odom_from_camera =
       odom_from_body_of_picture(before.state, calibration) * body_from_camera_;
@@ -96,8 +94,7 @@ VisualUpdateResult VisualFront::update(const FilterBelief& prior, std::span<cons
   patches_ = select_patches(map_, CameraView(camera_, odom_from_camera), grid_, depths_);
   last_ = updater_.run(
       before, map_, patches_,
-      {pyramid_, camera_, body_from_camera_, calibration, before.state.calibration.camera_delay_s},
-      alone ? kShareAlone : kShareBesideLidar);
+      {pyramid_, camera_, body_from_camera_, calibration, before.state.calibration.camera_delay_s});
   return last_;
 }
 

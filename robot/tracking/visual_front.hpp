@@ -20,15 +20,16 @@ namespace edgesplat::tracking {
 /// The camera's part of tracking: for each picture first update(), then extend(). Thread-bound.
 class VisualFront {
  public:
-  VisualFront(const TrackingConfig& config, const sensor::CameraMount& camera, BlockLoop& loop);
+  /// `scan_noise` of the points that update() gets.
+  VisualFront(const TrackingConfig& config, const sensor::CameraMount& camera, const PointNoise& scan_noise,
+              BlockLoop& loop);
 
   /// Whether a picture can be used: the camera's size, and something to be seen on it.
   [[nodiscard]] bool take(const sync::GroupImage& picture);
   /// Aligns the picture taken with the map. `points` are the scan's, in the body at the picture's moment.
-  /// `alone`: there are directions that nothing but the picture sees.
   /// `calibration`: how the camera's delay shows; null where there is none.
   VisualUpdateResult update(const FilterBelief& prior, std::span<const Eigen::Vector3f> points_in_body_m,
-                            bool alone, const CalibrationView* calibration = nullptr);
+                            const CalibrationView* calibration = nullptr);
   /// Where the patches of the last update lie in the picture, and how well each fits.
   [[nodiscard]] std::vector<TrackedPatch> tracked_patches(const CalibrationView* calibration = nullptr) const;
   /// Adds what the picture shows, with the pose as it is now known.

@@ -22,13 +22,17 @@ constexpr double kStrange = 0.8;
 struct Comparison {
   double strangeness;
   Eigen::Matrix2d warp;
+  Eigen::Vector2d growth;
 };
 
 std::optional<Comparison> compare(const VisualObservation& observation, const VisualPoint& point,
                                   const PointInView& seen, const Eigen::Vector3d& camera_in_odom_m) {
   Comparison result;
-  result.warp.col(0) = seen.pixel_by_odom * observation.right_m.cast<double>();
-  result.warp.col(1) = seen.pixel_by_odom * observation.down_m.cast<double>();
+  Eigen::Matrix<double, 3, 2> step_m;
+  step_m << observation.right_m.cast<double>(), observation.down_m.cast<double>();
+  result.warp = seen.pixel_by_odom * step_m;
+  result.growth =
+      step_m.transpose() * seen.forward / seen.p_in_camera_m.z() - observation.growth.cast<double>();
   const double area = result.warp.determinant();
   if (!(area > 1e-3)) return std::nullopt;  // also where the plane is seen from behind
   const double zoom = std::abs(0.5 * std::log2(area));
@@ -60,7 +64,9 @@ std::optional<PointInView> look_at(const CameraView& view, const Eigen::Vector3d
     if (!more || !less) return std::nullopt;
     by_camera.col(axis) = (*more - *less) / (2.0 * step);
   }
-  seen.pixel_by_odom = by_camera * view.camera_from_odom.rotation.toRotationMatrix();
+  const Eigen::Matrix3d rotation = view.camera_from_odom.rotation.toRotationMatrix();
+  seen.forward = rotation.row(2);
+  seen.pixel_by_odom = by_camera * rotation;
   return seen;
 }
 
@@ -72,7 +78,7 @@ std::optional<Reference> choose_reference(const VisualMap& map, const VisualPoin
     const std::uint32_t index = point.observations[i];
     const auto comparison = compare(map.observation(index), point, seen, camera_in_odom_m);
     if (!comparison || (best && comparison->strangeness >= least)) continue;
-    best = Reference{index, comparison->warp};
+    best = Reference{index, comparison->warp, comparison->growth};
     least = comparison->strangeness;
     if (least < kAlike) break;
   }

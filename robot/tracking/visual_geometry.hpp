@@ -28,6 +28,7 @@ struct CameraView {
 struct PointInView {
   Eigen::Vector2d pixel;
   Eigen::Vector3d p_in_camera_m;
+  Eigen::Vector3d forward;                    ///< the camera's axis, in odom
   Eigen::Matrix<double, 2, 3> pixel_by_odom;  ///< d pixel / d point in odom
 };
 /// Nothing for a point behind the camera.
@@ -36,7 +37,8 @@ struct PointInView {
 /// The observation of a point that a view is compared with, and how it is warped.
 struct Reference {
   std::uint32_t observation;
-  Eigen::Matrix2d warp;  ///< pixels of the view for one pixel of the observation, at full size
+  Eigen::Matrix2d warp;    ///< pixels of the view for one pixel of the observation, at full size
+  Eigen::Vector2d growth;  ///< of the depth in the view, less that in the observation (see image::PatchWarp)
 };
 /// The oldest observation from about the same side and distance, since it drifted least; else the one that is
 /// warped least. Nothing where all are warped too much to be compared.

@@ -19,6 +19,10 @@ constexpr int kMaxAdded = 120;
 constexpr int kMaxRays = 80;
 /// A value of a patch above this is likely to be cut off.
 constexpr std::uint8_t kSaturated = 250;
+/// The planes below a patch's corners are one, as far as the map knows: not farther off and not more slanted.
+constexpr float kSamePlace_m = 0.03F;
+constexpr float kSameDirection = 0.9F;
+constexpr double kMostAcross_m = 3.0;
 
 Eigen::Vector2f at_level(const Eigen::Vector2f& pixel, int level) {
   return ((pixel.array() + 0.5F) / std::ldexp(1.0F, level)) - 0.5F;
@@ -52,6 +56,9 @@ std::optional<VisualObservation> observe(const PosedPicture& picture, const Eige
   };
   seen.right_m = step_on_plane(1.0, 0.0);
   seen.down_m = step_on_plane(0.0, 1.0);
+  const Eigen::Vector3f forward = odom_from_camera.col(2).cast<float>();
+  const float depth_m = forward.dot(seen.from_camera_m);
+  seen.growth = {forward.dot(seen.right_m) / depth_m, forward.dot(seen.down_m) / depth_m};
   if (!seen.right_m.allFinite() || !seen.down_m.allFinite()) return std::nullopt;
   return seen;
 }
@@ -76,7 +83,7 @@ class PlaneFinder {
       ++rays_;
       hit = first_plane(planes_, ray);
     }
-    if (!hit) return std::nullopt;
+    if (!hit || !lies_on_plane(pixel, *hit)) return std::nullopt;
     const Eigen::Vector3d in_camera = view_.camera_from_odom * hit->p_in_odom_m;
     const PlaneInView plane{pixel, in_camera.cast<float>(),
                             odom_from_camera_.transpose().cast<float>() * hit->normal};
@@ -84,6 +91,27 @@ class PlaneFinder {
   }
 
  private:
+  /// The map has the same plane at the patch's corners: patches across an edge move as neither side does, and
+  /// what stands out of a wall moves faster than it.
+  [[nodiscard]] bool lies_on_plane(const Eigen::Vector2f& pixel, const PlaneHit& hit) const {
+    constexpr double kReach_px = 0.5 * (image::kPatchSide - 1);
+    const Eigen::Vector3d normal = hit.normal.cast<double>();
+    const double above_m = normal.dot(hit.p_in_odom_m - view_.camera_in_odom_m);
+    for (const double dx : {-kReach_px, kReach_px}) {
+      for (const double dy : {-kReach_px, kReach_px}) {
+        const Eigen::Vector2d at = pixel.cast<double>() + Eigen::Vector2d(dx, dy);
+        const Eigen::Vector3d direction = odom_from_camera_ * view_.camera.unproject(at);
+        const Eigen::Vector3d corner_m = view_.camera_in_odom_m + above_m / normal.dot(direction) * direction;
+        if (!((corner_m - hit.p_in_odom_m).norm() < kMostAcross_m)) return false;
+        const PlaneMatch match = planes_.find(corner_m);
+        if (match.plane == nullptr || match.plane->normal.dot(hit.normal) < kSameDirection ||
+            std::abs(match.plane->normal.dot(match.from_centre_m)) > kSamePlace_m)
+          return false;
+      }
+    }
+    return true;
+  }
+
   const PlaneMap& planes_;
   const CameraView& view_;
   const DepthCells& depths_;

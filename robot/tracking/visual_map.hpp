@@ -23,6 +23,8 @@ struct VisualObservation {
   /// Steps on the point's plane, in odom, for one pixel to the right and one down in the picture.
   Eigen::Vector3f right_m;
   Eigen::Vector3f down_m;
+  /// By how much of itself the depth grows with that.
+  Eigen::Vector2f growth = Eigen::Vector2f::Zero();
   float log_gain = 0.0F;
   std::array<image::BorderedPatch, kPatchLevels> patches;
 };

@@ -16,9 +16,12 @@ constexpr float kLeastFacing = 0.17F;
 
 void turn_plane(VisualObservation& observation, const Eigen::Vector3f& normal) {
   const Eigen::Vector3f& ray = observation.from_camera_m;
-  const Eigen::Vector3f along = ray / normal.dot(ray);
-  observation.right_m -= normal.dot(observation.right_m) * along;
-  observation.down_m -= normal.dot(observation.down_m) * along;
+  // Along the ray, by which the depth grows as the ray does.
+  const Eigen::Vector2f along(normal.dot(observation.right_m) / normal.dot(ray),
+                              normal.dot(observation.down_m) / normal.dot(ray));
+  observation.right_m -= along.x() * ray;
+  observation.down_m -= along.y() * ray;
+  observation.growth -= along;
 }
 
 void refine_normal(VisualMap& map, VisualPoint& point, const PlaneMap& planes) {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace edgesplat::tracking {
@@ -60,6 +59,12 @@ Correction<Errors> correct_by(const ShiftedPrior<Errors>& prior, const Matrix7d&
   }
 }
 
+VisualUpdateResult without_update(const FilterBelief& prior, VisualUpdateResult result) {
+  result.belief = prior;
+  result.updated = false;
+  return result;
+}
+
 float median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -86,7 +91,8 @@ void VisualUpdater::prepare(int level, const FilterState& state, const VisualMap
       const double zoom = 0.5 * std::log2(std::max(1e-6, patch.reference.warp.determinant()));
       made.level = std::clamp(static_cast<int>(std::lround(level + zoom)), 0, levels - 1);
       const double shrink = std::ldexp(1.0, -made.level);
-      made.view.step = (std::ldexp(shrink, level) * patch.reference.warp).cast<float>();
+      made.view.warp.step = (std::ldexp(shrink, level) * patch.reference.warp).cast<float>();
+      made.view.warp.growth = (std::ldexp(1.0, level) * patch.reference.growth).cast<float>();
       const Eigen::Vector3d p_in_body = body_from_odom * point.p_in_odom_m;
       Eigen::Matrix<double, 2, 6> by_pose;
       by_pose << seen->pixel_by_odom * rotation * geometry::hat(p_in_body), -seen->pixel_by_odom;
@@ -108,7 +114,7 @@ void VisualUpdater::evaluate(const FilterState& state, const VisualMap& map,
       if (made.level < 0) continue;
       const auto pixel = picture.camera.project(camera_from_odom * map.point(patches[i].point).p_in_odom_m);
       if (!pixel) continue;
-      made.view.centre_px = halved_pixel(*pixel, made.level);
+      made.view.warp.centre_px = halved_pixel(*pixel, made.level);
       made.view.gain = std::exp(static_cast<float>(state.log_gain) -
                                 map.observation(patches[i].reference.observation).log_gain);
       if (!made.residual.evaluate(picture.pyramid.level(made.level), made.view, equations_[i]))
@@ -124,14 +130,13 @@ double VisualUpdater::noise_scale() const {
   return seen.empty() ? 1.0 : std::max(1.0, static_cast<double>(median(seen)) / kPixels);
 }
 
-VisualUpdater::Sums VisualUpdater::sum(double scale, double share) const {
+VisualUpdater::Sums VisualUpdater::sum(double scale) const {
   Sums sums;
   for (const PatchEquations& one : equations_) {
     if (one.chi_squared < 0.0F) continue;
     const double ratio = static_cast<double>(one.chi_squared) / (kPixels * scale);
-    sums.cost += kMisfitHalf * std::log1p(ratio / kMisfitHalf);
     if (ratio > kMisfitGate) continue;
-    const double weight = share / (scale * (1.0 + ratio / kMisfitHalf));
+    const double weight = config_.share / (scale * (1.0 + ratio / kMisfitHalf));
     sums.information += weight * one.information;
     sums.gradient += weight * one.gradient;
     ++sums.used;
@@ -149,9 +154,7 @@ double VisualUpdater::guess_log_gain(const FilterState& state, const VisualMap& 
     const auto pixel = picture.camera.project(camera_from_odom * map.point(patch.point).p_in_odom_m);
     if (!pixel) continue;
     image::PatchValues seen;
-    if (!image::sample_patch(picture.pyramid.level(0), halved_pixel(*pixel, 0), Eigen::Matrix2f::Identity(),
-                             seen))
-      continue;
+    if (!image::sample_patch(picture.pyramid.level(0), {halved_pixel(*pixel, 0)}, seen)) continue;
     const VisualObservation& reference = map.observation(patch.reference.observation);
     const float before = std::accumulate(reference.patches[0].begin(), reference.patches[0].end(), 0.0F) /
                          static_cast<float>(reference.patches[0].size());
@@ -162,42 +165,37 @@ double VisualUpdater::guess_log_gain(const FilterState& state, const VisualMap& 
 }
 
 VisualUpdateResult VisualUpdater::run(const FilterBelief& prior, const VisualMap& map,
-                                      std::span<const SelectedPatch> patches, const PictureView& picture,
-                                      double share) {
+                                      std::span<const SelectedPatch> patches, const PictureView& picture) {
   EDGESPLAT_CHECK(!prior.calibration || picture.calibration != nullptr, "a doubted calibration has a view");
-  return prior.calibration ? run_with<kFullSize>(prior, map, patches, picture, share)
-                           : run_with<kErrorSize>(prior, map, patches, picture, share);
+  return prior.calibration ? run_with<kFullSize>(prior, map, patches, picture)
+                           : run_with<kErrorSize>(prior, map, patches, picture);
 }
 
 template <int Errors>
 VisualUpdateResult VisualUpdater::run_with(const FilterBelief& prior, const VisualMap& map,
-                                           std::span<const SelectedPatch> patches, const PictureView& picture,
-                                           double share) {
+                                           std::span<const SelectedPatch> patches,
+                                           const PictureView& picture) {
   VisualUpdateResult result;
   result.belief = prior;
   if (static_cast<int>(patches.size()) < config_.min_patches) return result;
-  FilterState best = prior.state;
-  best.log_gain = guess_log_gain(prior.state, map, patches, picture);
+  FilterState present = prior.state;
+  present.log_gain = guess_log_gain(prior.state, map, patches, picture);
   for (int level = kPatchLevels - 1; level >= 0; --level) {
-    prepare(level, best, map, patches, picture);
-    FilterState present = best;
+    prepare(level, present, map, patches, picture);
     double scale = 0.0;
-    double least_cost = std::numeric_limits<double>::infinity();
-    bool enough = true;
+    // Every step is taken. One that makes the pixels fit worse is right where the prior asks for it: refusing
+    // it would leave the pose of the coarser level.
     for (int i = 0; i < config_.max_iterations; ++i) {
       evaluate(present, map, patches, picture);
       if (scale <= 0.0) scale = noise_scale();
-      const Sums sums = sum(scale, share);
+      const Sums sums = sum(scale);
       ++result.iterations;
-      enough = sums.used >= config_.min_patches;
-      if (!enough || sums.cost >= least_cost) break;
-      least_cost = sums.cost;
-      best = present;
+      if (sums.used < config_.min_patches) break;
       const ShiftedPrior<Errors> shifted = shift<Errors>(prior, present);
       const Correction<Errors> correction =
           correct_by<Errors>(shifted, sums.information, sums.gradient, picture);
       const ErrorsVector<Errors> step = shifted.offset + correction.pulled;
-      if (!step.allFinite()) return result;
+      if (!step.allFinite()) return without_update(prior, result);
       present = moved_by<Errors>(present, step);
       if (level == 0) {
         const ErrorsMatrix<Errors> posterior = shifted.covariance - correction.learnt;
@@ -206,21 +204,16 @@ VisualUpdateResult VisualUpdater::run_with(const FilterBelief& prior, const Visu
         result.noise_scale = scale;
         result.updated = true;
         result.misfit.clear();
-        for (std::size_t k = 0; k < patches.size(); ++k)
-          result.misfit.push_back(static_cast<double>(equations_[k].chi_squared) / (kPixels * scale));
+        for (const PatchEquations& one : equations_)
+          result.misfit.push_back(static_cast<double>(one.chi_squared) / (kPixels * scale));
       }
       if (step.template segment<3>(kRot).norm() < kRotationDone_rad &&
-          step.template segment<3>(kPos).norm() < kPositionDone_m) {
-        best = present;
+          step.template segment<3>(kPos).norm() < kPositionDone_m)
         break;
-      }
     }
   }
-  if (!result.updated) {
-    result.belief = prior;
-    return result;
-  }
-  result.belief.state = best;
+  if (!result.updated) return without_update(prior, result);
+  result.belief.state = present;
   return result;
 }
 

@@ -23,6 +23,9 @@ struct VisualUpdateConfig {
   PatchNoise noise;
   int max_iterations = 5;  ///< at each pyramid level
   int min_patches = 12;
+  /// The part of independent pixels that those of a patch count as. They share errors of warp, focus and
+  /// depth, and a point's place is as wrong in the next picture as in this one. Found in simulation.
+  double share = 0.03;
 };
 
 /// The present picture and where its camera sits.
@@ -55,10 +58,8 @@ class VisualUpdater {
  public:
   VisualUpdater(const VisualUpdateConfig& config, BlockLoop& loop) : config_(config), loop_(loop) {}
 
-  /// `share`: the part of independent pixels that those of a patch count as. They share errors of warp, focus
-  /// and depth, and a point's place is as wrong in the next picture as in this one.
   VisualUpdateResult run(const FilterBelief& prior, const VisualMap& map,
-                         std::span<const SelectedPatch> patches, const PictureView& picture, double share);
+                         std::span<const SelectedPatch> patches, const PictureView& picture);
 
  private:
   /// What a level's patches share between iterations.
@@ -70,20 +71,18 @@ class VisualUpdater {
   struct Sums {
     Matrix7d information = Matrix7d::Zero();
     Vector7d gradient = Vector7d::Zero();
-    double cost = 0.0;
     int used = 0;
   };
   template <int Errors>
   VisualUpdateResult run_with(const FilterBelief& prior, const VisualMap& map,
-                              std::span<const SelectedPatch> patches, const PictureView& picture,
-                              double share);
+                              std::span<const SelectedPatch> patches, const PictureView& picture);
   void prepare(int level, const FilterState& state, const VisualMap& map,
                std::span<const SelectedPatch> patches, const PictureView& picture);
   /// Equations of every patch at a state; chi squared below 0 for one that is out of the picture.
   void evaluate(const FilterState& state, const VisualMap& map, std::span<const SelectedPatch> patches,
                 const PictureView& picture);
   [[nodiscard]] double noise_scale() const;
-  [[nodiscard]] Sums sum(double scale, double share) const;
+  [[nodiscard]] Sums sum(double scale) const;
   [[nodiscard]] double guess_log_gain(const FilterState& state, const VisualMap& map,
                                       std::span<const SelectedPatch> patches,
                                       const PictureView& picture) const;

@@ -28,7 +28,7 @@ TEST(SamplePatch, FollowsAnAffineStep) {
   Eigen::Matrix2f step;
   step << 0.8F, 0.3F, -0.2F, 1.1F;
   PatchValues values;
-  ASSERT_TRUE(sample_patch(plane(), centre, step, values));
+  ASSERT_TRUE(sample_patch(plane(), {centre, step}, values));
   for (int row = 0; row < kPatchSide; ++row) {
     for (int column = 0; column < kPatchSide; ++column) {
       const Eigen::Vector2f at =
@@ -39,14 +39,51 @@ TEST(SamplePatch, FollowsAnAffineStep) {
   }
 }
 
+/// A wall beside the way, seen by a pinhole camera of 100 pixels' focal length from z = 0 and from z = 0.8 m.
+TEST(SamplePatch, FollowsAWallThatAnotherCameraSees) {
+  constexpr float kFocal_px = 100.0F, kForward_m = 0.8F, kX_px = 30.0F, kY_px = 12.0F;  // from the axis
+  constexpr float kBeside_m = 0.6F;
+  const auto depth_m = [](float x_px) { return kFocal_px * kBeside_m / x_px; };
+  // A pixel of the first camera in the second one, from the axis.
+  const auto moved = [&](float x_px, float y_px) {
+    const float z = depth_m(x_px);
+    return Eigen::Vector2f(Eigen::Vector2f(x_px, y_px) * z / (z - kForward_m));
+  };
+  const float z = depth_m(kX_px);
+  PatchWarp warp;
+  const Eigen::Vector2f axis(-15.0F, 4.0F);
+  warp.centre_px = axis + moved(kX_px, kY_px);
+  constexpr float kStep = 0.01F;
+  warp.step.col(0) = (moved(kX_px + kStep, kY_px) - moved(kX_px - kStep, kY_px)) / (2.0F * kStep);
+  warp.step.col(1) = (moved(kX_px, kY_px + kStep) - moved(kX_px, kY_px - kStep)) / (2.0F * kStep);
+  // The depth shrinks by a share 1 / x for a pixel to the right in the first picture; the same length off a
+  // shorter depth in the second.
+  warp.growth.x() = -(z / kX_px) / (z - kForward_m) + 1.0F / kX_px;
+  PatchValues values;
+  ASSERT_TRUE(sample_patch(plane(), warp, values));
+  double affine_off = 0.0;
+  for (int row = 0; row < kPatchSide; ++row) {
+    for (int column = 0; column < kPatchSide; ++column) {
+      const Eigen::Vector2f offset(static_cast<float>(column) - 3.5F, static_cast<float>(row) - 3.5F);
+      const Eigen::Vector2f at = axis + moved(kX_px + offset.x(), kY_px + offset.y());
+      EXPECT_NEAR(values[static_cast<std::size_t>(row * kPatchSide + column)],
+                  brightness(static_cast<double>(at.x()), static_cast<double>(at.y())), 0.02);
+      affine_off += static_cast<double>((at - warp.centre_px - warp.step * offset).x()) / kPatchPixels;
+    }
+  }
+  EXPECT_GT(affine_off, 0.1) << "an affine warp leaves out what would be taken for motion";
+}
+
 TEST(SamplePatch, RefusesToLeaveThePicture) {
   PatchValues values;
   const Eigen::Matrix2f unit = Eigen::Matrix2f::Identity();
-  EXPECT_TRUE(sample_patch(plane(), {3.5F, 3.5F}, unit, values));
-  EXPECT_FALSE(sample_patch(plane(), {3.4F, 20.0F}, unit, values));
-  EXPECT_FALSE(sample_patch(plane(), {59.6F, 20.0F}, unit, values));
-  EXPECT_FALSE(sample_patch(plane(), {30.0F, 20.0F}, 6.0F * unit, values));
-  EXPECT_FALSE(sample_patch(plane(), {std::nanf(""), 20.0F}, unit, values));
+  EXPECT_TRUE(sample_patch(plane(), {{3.5F, 3.5F}}, values));
+  EXPECT_FALSE(sample_patch(plane(), {{3.4F, 20.0F}}, values));
+  EXPECT_FALSE(sample_patch(plane(), {{59.6F, 20.0F}}, values));
+  EXPECT_FALSE(sample_patch(plane(), {{30.0F, 20.0F}, 6.0F * unit}, values));
+  EXPECT_FALSE(sample_patch(plane(), {{std::nanf(""), 20.0F}}, values));
+  EXPECT_TRUE(sample_patch(plane(), {{30.0F, 20.0F}, unit, {0.05F, 0.05F}}, values));
+  EXPECT_FALSE(sample_patch(plane(), {{30.0F, 20.0F}, unit, {0.1F, 0.05F}}, values));
 }
 
 TEST(CutPatch, HoldsThePixelsAndTheirSlopes) {

@@ -49,6 +49,26 @@ TEST(DepthCells, ASingleReturnIsNoWitness) {
   EXPECT_TRUE(cells.agree(on_the_wall(0.0F)));
 }
 
+TEST(DepthCells, WhatStandsOutOfTheWallIsNoticedWhereTheNoiseIsKnown) {
+  sensor::LidarModel lidar;
+  lidar.range_sigma_m = 0.02;
+  lidar.bearing_sigma_rad = 1e-4;
+  std::vector<Eigen::Vector3f> points = wall();
+  test::Random random(3);
+  for (Eigen::Vector3f& p : points) p.z() += 0.02F * static_cast<float>(random.normal());
+  DepthCells with_noise{PointNoise(lidar)}, without;
+  for (DepthCells* cells : {&with_noise, &without})
+    cells->build(points, {}, test::PaintedRoom::camera().model);
+  PlaneInView frame = on_the_wall(0.0F);
+  frame.p_in_camera_m.z() -= 0.03F;
+  EXPECT_TRUE(without.agree(frame)) << "less than a single point tells";
+  EXPECT_FALSE(with_noise.agree(frame)) << "but not than the mean of 40 does";
+  int agreed = 0;
+  for (int i = -15; i <= 15; ++i)
+    agreed += with_noise.agree(on_the_wall(0.1F * static_cast<float>(i))) ? 1 : 0;
+  EXPECT_GT(agreed, 20) << "of 31 places that are on the wall";
+}
+
 TEST(DepthCells, FindTheNearestReturn) {
   DepthCells cells;
   cells.build(wall(), {}, test::PaintedRoom::camera().model);

@@ -28,7 +28,7 @@ const char* world_name() {
 constexpr double kWarmUp_s = kMinutes > 10.0 ? 400.0 : 75.0;
 /// The map of the pictures' points grows up to its bound even where no place is new: a low one, to be reached
 /// before memory is watched.
-constexpr int kVisualMap_mb = kMinutes > 10.0 ? 8 : 2;
+constexpr int kVisualMap_mb = kMinutes > 10.0 ? 4 : 1;
 /// Drawing pictures takes most of the test's time.
 constexpr int kWidth_px = 160;
 

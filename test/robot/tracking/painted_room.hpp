@@ -55,7 +55,8 @@ class PaintedRoom {
     Random random(1);
     const tracking::Symmetric3f noise = tracking::pack((1e-6F * Eigen::Matrix3f::Identity()).eval());
     for (int i = 0; i < 60000; ++i)
-      planes.insert({hit(Eigen::Vector3d::Zero(), random.direction()), noise, tracking::Symmetric3f::Zero()});
+      planes.insert({hit(Eigen::Vector3d::Zero(), random.direction()), noise, tracking::Symmetric3f::Zero()},
+                    Eigen::Vector3d::Zero());
   }
   /// What a LiDAR at a body measures, in the body.
   static std::vector<Eigen::Vector3f> scan(const geometry::RigidTransform& room_from_body, int points) {

@@ -26,8 +26,7 @@ sensor::ImageGray8 spots(double gain = 1.0) {
 /// The first two parameters of the pose move the patch by pixels right and down.
 PatchView view_at(float x, float y) {
   PatchView view;
-  view.centre_px = {x, y};
-  view.step.setIdentity();
+  view.warp.centre_px = {x, y};
   view.pixel_by_pose.setZero();
   view.pixel_by_pose(0, 0) = view.pixel_by_pose(1, 1) = 1.0F;
   view.pixel_by_doubt.setZero();
@@ -54,10 +53,10 @@ TEST(PatchResidual, StepsLeadBackFromAnOffset) {
     ASSERT_TRUE(reference().evaluate(spots(), view, equations));
     const Eigen::Vector2d step =
         equations.information.topLeftCorner<2, 2>().inverse() * -equations.gradient.head<2>();
-    view.centre_px += step.cast<float>();
+    view.warp.centre_px += step.cast<float>();
   }
-  EXPECT_NEAR(view.centre_px.x(), 31.5F, 0.02F);
-  EXPECT_NEAR(view.centre_px.y(), 31.5F, 0.02F);
+  EXPECT_NEAR(view.warp.centre_px.x(), 31.5F, 0.02F);
+  EXPECT_NEAR(view.warp.centre_px.y(), 31.5F, 0.02F);
 }
 
 TEST(PatchResidual, GradientAgreesWithNumericDifferencesOfTheCost) {

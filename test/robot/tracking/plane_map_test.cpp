@@ -21,7 +21,8 @@ void add_floor(PlaneMap& map, double from_m, double to_m, double height_m, std::
   for (int i = 0; i < static_cast<int>(200.0 * area); ++i) {
     map.insert(
         {{random.uniform(from_m, to_m), random.uniform(from_m, to_m), height_m + 0.01 * random.normal()},
-         kNoise});
+         kNoise},
+        {0.0, 0.0, 2.0});
   }
 }
 
@@ -55,15 +56,33 @@ TEST(PlaneMap, LooksBeyondTheFaceNearestToThePoint) {
   EXPECT_NEAR(std::abs(match.plane->normal.dot(match.from_centre_m)), 0.03F, 0.01F);
 }
 
+TEST(PlaneMap, PlanesFaceTheLidarThatSawThem) {
+  PlaneMap floor({}), ceiling({});
+  test::Random random(7);
+  for (int i = 0; i < 400; ++i) {
+    const MapPoint point{{random.uniform(0.0, 1.0), random.uniform(0.0, 1.0), 0.3}, kNoise};
+    floor.insert(point, {0.5, 0.5, 2.3});
+    ceiling.insert(point, {0.5, 0.5, -1.7});
+  }
+  const Plane* above = floor.find({0.5, 0.5, 0.3}).plane;
+  const Plane* below = ceiling.find({0.5, 0.5, 0.3}).plane;
+  ASSERT_TRUE(above != nullptr && below != nullptr);
+  EXPECT_GT(above->normal.z(), 0.99F);
+  EXPECT_LT(below->normal.z(), -0.99F);
+  EXPECT_GT(above->seen_from.z(), 0.9F);
+  EXPECT_LT(below->seen_from.z(), -0.9F);
+  EXPECT_NEAR(above->seen_from.norm(), 1.0F, 1e-5F);
+}
+
 TEST(PlaneMap, SplitsACornerIntoItsPlanes) {
   PlaneMap map({});
   test::Random random(2);
   for (int i = 0; i < 2000; ++i) {
     const double u = random.uniform(0.0, 1.0), v = random.uniform(0.0, 1.0);
     if (i % 2 == 0) {
-      map.insert({{u, v, 0.1}, kNoise});
+      map.insert({{u, v, 0.1}, kNoise}, {1.0, 1.0, 1.0});
     } else {
-      map.insert({{0.1, u, v}, kNoise});
+      map.insert({{0.1, u, v}, kNoise}, {1.0, 1.0, 1.0});
     }
   }
   const PlaneMatch floor = map.find({0.9, 0.4, 0.1});
@@ -108,7 +127,7 @@ TEST(PlaneMap, StaysWithinItsBytesAndKeepsWhatIsNear) {
   PlaneMap map(config);
   test::Random random(5);
   for (int i = 0; i < 60000; ++i) {
-    map.insert({random.vector(40.0), kNoise});  // a cloud without planes: the worst case
+    map.insert({random.vector(40.0), kNoise}, {0.0, 0.0, 0.0});  // a cloud without planes: the worst case
     if (i % 1000 == 0) map.slide({0, 0, 0});
   }
   map.slide({0, 0, 0});

@@ -30,7 +30,7 @@ class ScanUpdate : public testing::Test {
     const Symmetric3f noise = pack((1e-4F * Eigen::Matrix3f::Identity()).eval());
     for (int i = 0; i < 60000; ++i) {
       const Vector3d jitter = 0.01 * Vector3d(random.normal(), random.normal(), random.normal());
-      map_.insert({wall_point(random, floor_only) + jitter, noise});
+      map_.insert({wall_point(random, floor_only) + jitter, noise}, Vector3d::Zero());
     }
   }
   /// What the body at `truth_` sees.
@@ -101,7 +101,8 @@ TEST_F(ScanUpdate, PointsOnOnePlaneShareItsError) {
   const Symmetric3f noise = pack((1e-4F * Eigen::Matrix3f::Identity()).eval());
   for (int i = 0; i < 10; ++i) {
     map_.insert(
-        {{random.uniform(0.05, 0.95), random.uniform(0.05, 0.95), 0.5 + 0.01 * random.normal()}, noise});
+        {{random.uniform(0.05, 0.95), random.uniform(0.05, 0.95), 0.5 + 0.01 * random.normal()}, noise},
+        {0.5, 0.5, 2.0});
   }
   const PlaneMatch floor = map_.find({0.5, 0.5, 0.5});
   ASSERT_NE(floor.plane, nullptr);

@@ -36,7 +36,7 @@ class VisualFrontInARoom : public testing::Test {
   /// Sees the room once from where the pose is known.
   void begin(VisualFront& front, const RigidTransform& body) {
     ASSERT_TRUE(front.take(picture(body)));
-    EXPECT_FALSE(front.update(belief_at(body), PaintedRoom::scan(body, 3000), true).updated);
+    EXPECT_FALSE(front.update(belief_at(body), PaintedRoom::scan(body, 3000)).updated);
     front.extend(belief_at(body), planes_);
     ASSERT_GT(front.map().size(), 60U);
   }
@@ -45,18 +45,19 @@ class VisualFrontInARoom : public testing::Test {
     const RigidTransform off{body.rotation * geometry::so3_exp({0.005, -0.006, 0.004}),
                              body.translation_m + Vector3d(0.02, -0.015, 0.015)};
     EXPECT_TRUE(front.take(picture(body, gain)));
-    return front.update(belief_at(off, 0.02, 0.05), PaintedRoom::scan(body, 3000), true);
+    return front.update(belief_at(off, 0.02, 0.05), PaintedRoom::scan(body, 3000));
   }
 
   const sensor::CameraMount camera_ = PaintedRoom::camera();
   const RigidTransform first_{geometry::so3_exp({0.0, 0.02, 0.1}), {-2.0, 0.3, 0.1}};
   const RigidTransform next_{geometry::so3_exp({0.01, 0.03, 0.16}), {-1.6, 0.4, 0.15}};
   PlaneMap planes_{PlaneMapConfig{}};
+  const PointNoise noise_{sensor::LidarModel{}};
   BlockLoop loop_{1};
 };
 
 TEST_F(VisualFrontInARoom, FindsThePoseOfASecondPicture) {
-  VisualFront front({}, camera_, loop_);
+  VisualFront front({}, camera_, noise_, loop_);
   begin(front, first_);
   const VisualUpdateResult result = second(front, next_);
   ASSERT_TRUE(result.updated);
@@ -73,7 +74,7 @@ TEST_F(VisualFrontInARoom, FindsThePoseOfASecondPicture) {
 
 TEST_F(VisualFrontInARoom, AnExposureStepGoesIntoTheGain) {
   for (const double gain : {0.5, 1.25}) {
-    VisualFront front({}, camera_, loop_);
+    VisualFront front({}, camera_, noise_, loop_);
     begin(front, first_);
     const VisualUpdateResult result = second(front, next_, gain);
     ASSERT_TRUE(result.updated) << gain;
@@ -83,7 +84,7 @@ TEST_F(VisualFrontInARoom, AnExposureStepGoesIntoTheGain) {
 }
 
 TEST_F(VisualFrontInARoom, APictureOfNothingOrAnotherSizeIsNotTaken) {
-  VisualFront front({}, camera_, loop_);
+  VisualFront front({}, camera_, noise_, loop_);
   begin(front, first_);
   sync::GroupImage image{};
   image.image = std::make_shared<sensor::ImageRgb8>(320, 256);  // black
@@ -96,20 +97,20 @@ TEST_F(VisualFrontInARoom, APictureOfNothingOrAnotherSizeIsNotTaken) {
 }
 
 TEST_F(VisualFrontInARoom, WhatTheScanSeesInFrontIsLeftOut) {
-  VisualFront front({}, camera_, loop_);
+  VisualFront front({}, camera_, noise_, loop_);
   begin(front, first_);
   ASSERT_TRUE(front.take(picture(next_)));
   std::vector<Eigen::Vector3f> crowd;  // all around, at one metre
   test::Random random(5);
   for (int i = 0; i < 20000; ++i) crowd.push_back(random.direction().cast<float>());
-  const VisualUpdateResult result = front.update(belief_at(next_), crowd, true);
+  const VisualUpdateResult result = front.update(belief_at(next_), crowd);
   EXPECT_FALSE(result.updated);
   EXPECT_EQ(result.patches, 0);
 }
 
 TEST_F(VisualFrontInARoom, OneAndTwoThreadsGiveTheSameBits) {
   BlockLoop two(2);
-  VisualFront with_one({}, camera_, loop_), with_two({}, camera_, two);
+  VisualFront with_one({}, camera_, noise_, loop_), with_two({}, camera_, noise_, two);
   begin(with_one, first_);
   begin(with_two, first_);
   const VisualUpdateResult a = second(with_one, next_), b = second(with_two, next_);
@@ -120,12 +121,12 @@ TEST_F(VisualFrontInARoom, OneAndTwoThreadsGiveTheSameBits) {
 TEST_F(VisualFrontInARoom, TheMapStaysBelowItsSize) {
   TrackingConfig config;
   config.visual_map_max_mb = 1;
-  VisualFront front(config, camera_, loop_);
+  VisualFront front(config, camera_, noise_, loop_);
   RigidTransform body = first_;
   for (int i = 0; i < 40; ++i) {
     body.rotation = geometry::so3_exp({0, 0, 0.3 * i});
     ASSERT_TRUE(front.take(picture(body)));
-    (void)front.update(belief_at(body), PaintedRoom::scan(body, 3000), true);
+    (void)front.update(belief_at(body), PaintedRoom::scan(body, 3000));
     front.extend(belief_at(body), planes_);
     ASSERT_LE(front.map().bytes(), std::size_t{1} << 20U);
   }

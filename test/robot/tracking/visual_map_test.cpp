@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 namespace edgesplat::tracking {
 namespace {
 
@@ -88,6 +90,54 @@ TEST(ChooseReference, TakesTheOldestThatSeesThePointAlike) {
   EXPECT_NEAR(reference->warp(0, 0), 1.1, 1e-3);
   EXPECT_NEAR(reference->warp(0, 1), 0.0, 1e-6);
   EXPECT_FALSE(is_new_view(map, map.point(index), *seen, view.camera_in_odom_m));
+}
+
+TEST(ChooseReference, TellsHowTheDepthGrowsAcrossThePatch) {
+  VisualMap map(1U << 20U);
+  VisualPoint point;
+  point.p_in_odom_m = {0.5, 0.0, 3.0};
+  point.normal = {-0.8F, 0.0F, -0.6F};
+  const std::uint32_t index = map.add(point);
+  VisualObservation look;  // at the focal length of 160 pixels, from the origin
+  look.from_camera_m = point.p_in_odom_m.cast<float>();
+  // Down is along the plane; right is where the next pixel's ray meets it.
+  const Vector3d ray(0.5 / 3.0 + 1.0 / 160.0, 0.0, 1.0);
+  const Vector3d normal = point.normal.cast<double>();
+  look.right_m = (normal.dot(point.p_in_odom_m) / normal.dot(ray) * ray - point.p_in_odom_m).cast<float>();
+  look.down_m = {0.0F, 3.0F / 160.0F, 0.0F};
+  look.growth = {look.right_m.z() / 3.0F, 0.0F};
+  map.observe(index, look);
+  sensor::CameraMount mount = test::PaintedRoom::camera();
+  mount.model.distortion = {};
+  const CameraView same(mount.model, {});
+  const CameraView nearer(mount.model, {Eigen::Quaterniond::Identity(), Vector3d(0.0, 0.0, 1.0)});
+  const auto from = [&](const CameraView& view) {
+    return *choose_reference(map, map.point(index), *look_at(view, point.p_in_odom_m), view.camera_in_odom_m);
+  };
+  EXPECT_LT(from(same).growth.norm(), 1e-7);
+  // The same step in depth is a larger share of 2 m than of 3 m.
+  EXPECT_NEAR(from(nearer).growth.x(), static_cast<double>(look.right_m.z()) * (1.0 / 2.0 - 1.0 / 3.0), 1e-7);
+  EXPECT_NEAR(from(nearer).growth.y(), 0.0, 1e-9);
+}
+
+/// A landing whose floor was never seen, above the wall of the storey below.
+TEST(PlaneRay, DoesNotLookThroughAFloorThatWasNeverSeen) {
+  PlaneMap planes{PlaneMapConfig{}};
+  test::Random random(4);
+  const Symmetric3f noise = pack((1e-6F * Eigen::Matrix3f::Identity()).eval());
+  for (int i = 0; i < 4000; ++i) {  // a wall at x = 3, seen from the storey below, from underneath
+    const Vector3d p(3.0, random.uniform(-1.0, 1.0), random.uniform(-3.0, -0.5));
+    planes.insert({p, noise, Symmetric3f::Zero()}, {1.5, 0.0, -4.0});
+  }
+  const Vector3d at(3.0, 0.1, -0.9);
+  const OdomRay from_above{{1.5, 0.0, 1.5}, (at - Vector3d(1.5, 0.0, 1.5)).normalized()};
+  const OdomRay from_below{{1.5, 0.0, -2.5}, (at - Vector3d(1.5, 0.0, -2.5)).normalized()};
+  const OdomRay from_behind{{4.5, 0.0, -2.5}, (at - Vector3d(4.5, 0.0, -2.5)).normalized()};
+  EXPECT_TRUE(first_plane(planes, from_below).has_value());
+  EXPECT_FALSE(first_plane(planes, from_above).has_value());
+  EXPECT_TRUE(meet_plane(planes, from_above, at).has_value())
+      << "where the scan measures it there is no doubt";
+  EXPECT_FALSE(meet_plane(planes, from_behind, at).has_value());
 }
 
 TEST(PlaneRay, MeetsTheWallsWhereTheyAre) {

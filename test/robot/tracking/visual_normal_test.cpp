@@ -30,7 +30,13 @@ TEST(TurnPlane, GivesTheStepsThatALookAtTheOtherPlaneHas) {
   observation.from_camera_m = ray;
   observation.right_m = step_on(tilted(20.0), ray, right);
   observation.down_m = step_on(tilted(20.0), ray, down);
+  // The camera looks straight down: the depth is -z.
+  const auto growth = [&ray](const VisualObservation& look) {
+    return Eigen::Vector2f(look.right_m.z() / ray.z(), look.down_m.z() / ray.z());
+  };
+  observation.growth = growth(observation);
   turn_plane(observation, tilted(-15.0));
+  EXPECT_TRUE(observation.growth.isApprox(growth(observation), 1e-5F));
   EXPECT_TRUE(observation.right_m.isApprox(step_on(tilted(-15.0), ray, right), 1e-5F));
   EXPECT_TRUE(observation.down_m.isApprox(step_on(tilted(-15.0), ray, down), 1e-5F));
 }
@@ -46,7 +52,7 @@ class RefineNormal : public testing::Test {
                            0.2 + 0.005 * random.normal()};
       point.covariance_m2 << 2.5e-5F, 0.0F, 0.0F, 2.5e-5F, 0.0F, 2.5e-5F;
       point.pose_covariance_m2.setZero();
-      planes.insert(point);
+      planes.insert(point, {0.0, 0.0, 2.0});
     }
   }
 
