@@ -101,7 +101,9 @@ ErrorMatrix transition(const FilterState& state, const MotionInput& input, doubl
 void propagate(FilterBelief& belief, const MotionInput& input, const MotionNoise& noise, double dt_s) {
   const ErrorMatrix f = transition(belief.state, input, dt_s);
   belief.state = integrate(belief.state, input, dt_s);
-  belief.covariance = (f * belief.covariance * f.transpose()).eval();
+  const auto moving = f.topRows<kGyroBias>();  // biases and gravity stay as they are
+  belief.covariance.topRows<kGyroBias>() = (moving * belief.covariance).eval();
+  belief.covariance.leftCols<kGyroBias>() = (belief.covariance * moving.transpose()).eval();
   // No motion changes the calibration.
   if (belief.calibration) belief.calibration->with_state = (f * belief.calibration->with_state).eval();
   const auto add = [&](int index, double density) {

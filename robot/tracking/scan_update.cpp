@@ -4,11 +4,13 @@
 
 #include "common/base/check.hpp"
 #include "robot/tracking/iterated_update.hpp"
+#include "robot/tracking/plane_sums.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 namespace edgesplat::tracking {
@@ -20,31 +22,15 @@ constexpr float kRobustSigma = 2.0F;
 /// How fast the gate closes from the prior's doubt to the posterior's: at once, it locks in the first step's
 /// matches.
 constexpr double kGateShrink = 0.25;
-/// Steps smaller than these end the iteration: a hundredth of what one scan can resolve.
-constexpr double kRotationDone_rad = 2e-5;
-constexpr double kPositionDone_m = 2e-4;
+/// Steps smaller than these end the iteration, once they are taken: what is left after them is far less. What
+/// is learnt of a calibration are small differences: there it goes on to a third of them.
+constexpr double kRotationDone_rad = 7e-5;
+constexpr double kPositionDone_m = 7e-4;
+constexpr double kDoneCalibrating = 0.3;
 /// Patches are trusted up to this many standard deviations of their points beyond the centre.
 constexpr float kReachSigma = 3.0F;
 
 using Matrix6f = Eigen::Matrix<float, 6, 6>;
-using Vector6f = Eigen::Matrix<float, 6, 1>;
-
-/// The sums of PlaneResiduals over one block: few enough points for 32 bits.
-struct BlockSums {
-  Matrix6f information = Matrix6f::Zero();
-  Vector6f gradient = Vector6f::Zero();
-  Matrix6f noise = Matrix6f::Zero();
-  int used = 0;
-  int matched = 0;
-  double squares_m2 = 0.0;
-
-  [[nodiscard]] PlaneResiduals widened() const {
-    return {{information.cast<double>(), gradient.cast<double>(), noise.cast<double>()},
-            used,
-            matched,
-            squares_m2};
-  }
-};
 
 /// What all residuals at one pose share.
 struct PoseView {
@@ -75,21 +61,6 @@ std::optional<MatchedPoint> linearise(const PlaneMatch& match, std::size_t point
   return line;
 }
 
-/// Of the row, the normal being uncertain: it is linear in the normal, (hat(p) R', I) n.
-Matrix6f row_covariance(const Plane& plane, const Eigen::Vector3f& p_in_body, const PoseView& pose) {
-  Eigen::Matrix3f lever;
-  lever << 0.0F, -p_in_body.z(), p_in_body.y(), p_in_body.z(), 0.0F, -p_in_body.x(), -p_in_body.y(),
-      p_in_body.x(), 0.0F;
-  lever *= pose.rotation.transpose();
-  const Eigen::Matrix3f normal_covariance = unpack(plane.normal_covariance);
-  Matrix6f covariance;
-  covariance.topRightCorner<3, 3>() = lever * normal_covariance;
-  covariance.topLeftCorner<3, 3>() = covariance.topRightCorner<3, 3>() * lever.transpose();
-  covariance.bottomRightCorner<3, 3>() = normal_covariance;
-  covariance.bottomLeftCorner<3, 3>() = covariance.topRightCorner<3, 3>().transpose();
-  return covariance;
-}
-
 MatchedPoint match_point(std::size_t point, const PoseView& pose, const ScanView& scan, const PlaneMap& map,
                          float gate_squared) {
   const Eigen::Vector3d p_in_odom =
@@ -110,18 +81,12 @@ MatchedPoint match_point(std::size_t point, const PoseView& pose, const ScanView
 
 // All points on a plane see the plane's error alike. Of m residuals with own variances s and a common one c,
 // the mean has the variance s / m + c: as if each had s + m c and they were independent.
-void accumulate(const MatchedPoint& line, float sharers, const Matrix6f& row_covariance, float gate_squared,
-                BlockSums& sums) {
+/// The weight of a residual; 0 beyond the gate.
+float weight_of(const MatchedPoint& line, float sharers, float gate_squared) {
   const float chi_squared = line.residual_m * line.residual_m / line.spread_m2;
-  if (!(chi_squared < gate_squared)) return;
+  if (!(chi_squared < gate_squared)) return 0.0F;
   const float variance_m2 = line.point_variance_m2 + sharers * line.plane_variance_m2;
-  const float weight = 1.0F / (variance_m2 * (1.0F + chi_squared / (kRobustSigma * kRobustSigma)));
-  const Vector6f weighted = weight * line.row;
-  sums.information.noalias() += weighted * line.row.transpose();
-  sums.gradient += line.residual_m * weighted;
-  sums.noise += weight * row_covariance;
-  ++sums.used;
-  sums.squares_m2 += static_cast<double>(line.residual_m) * static_cast<double>(line.residual_m);
+  return 1.0F / (variance_m2 * (1.0F + chi_squared / (kRobustSigma * kRobustSigma)));
 }
 
 /// Projector on the states that a frozen direction holds still: the pose along it, and the velocity; and on
@@ -206,15 +171,16 @@ PlaneResiduals ScanUpdater::evaluate(const geometry::RigidTransform& odom_from_b
   count_sharers(map);
   partial_.assign(BlockLoop::blocks(points.size(), kBlockSize), PlaneResiduals{});
   loop_.run(points.size(), kBlockSize, [&](std::size_t block, std::size_t first, std::size_t last) {
-    BlockSums sums;
+    PlaneSums sums;
+    int matched = 0;
     for (std::size_t i = first; i < last; ++i) {
       const MatchedPoint& line = matched_[i];
       if (line.plane == nullptr) continue;
-      ++sums.matched;
-      accumulate(line, static_cast<float>(sharers_[line.plane_id]),
-                 row_covariance(*line.plane, points[i], pose), gate_squared, sums);
+      ++matched;
+      const float weight = weight_of(line, static_cast<float>(sharers_[line.plane_id]), gate_squared);
+      if (weight > 0.0F) sums.add(line, points[i], pose.rotation, weight);
     }
-    partial_[block] = sums.widened();
+    partial_[block] = sums.total(matched);
   });
   PlaneResiduals total;
   for (const PlaneResiduals& part : partial_) {
@@ -243,6 +209,7 @@ template <int Errors>
 ScanUpdateResult ScanUpdater::run_with(const FilterBelief& prior, const FilterState& start,
                                        const ScanView& scan, const PlaneMap& map) {
   constexpr bool kCalibrates = Errors == kFullSize;
+  constexpr double kDone = kCalibrates ? kDoneCalibrating : 1.0;
   ScanUpdateResult result;
   result.belief = prior;
   FilterState present = start;
@@ -261,19 +228,22 @@ ScanUpdateResult ScanUpdater::run_with(const FilterBelief& prior, const FilterSt
     const ObservedPart& observed = result.observed;
     const Correction<Errors> correction = correct_by<Errors>(shifted, observed, scan);
     const ErrorsMatrix<Errors> frozen = frozen_states<Errors>(observed, scan);
-    ErrorsVector<Errors> step = shifted.offset + correction.pulled - frozen * correction.pulled;
+    const bool holds_still = !frozen.isZero(0.0);
+    ErrorsVector<Errors> step = shifted.offset + correction.pulled;
+    if (holds_still) step -= frozen * correction.pulled;
     if constexpr (kCalibrates) step = scan.calibration->from_map_pose(step);
     if (!step.allFinite()) return without_update(prior, result);
     present = moved_by<Errors>(present, step);
     const ErrorsMatrix<Errors>& learnt = correction.learnt;
-    const ErrorsMatrix<Errors> posterior = shifted.covariance - learnt + frozen * learnt * frozen;
+    ErrorsMatrix<Errors> posterior = shifted.covariance - learnt;
+    if (holds_still) posterior += frozen * learnt * frozen;
     const ErrorsMatrix<Errors> symmetric = 0.5 * (posterior + posterior.transpose());
     set_covariance<Errors>(result.belief, symmetric);
     gate_doubt *= kGateShrink;
     gate_covariance = doubt_of<Errors>(symmetric, scan) + gate_doubt * prior_doubt;
     result.updated = true;
-    if (step.template segment<3>(kRot).norm() < kRotationDone_rad &&
-        step.template segment<3>(kPos).norm() < kPositionDone_m)
+    if (step.template segment<3>(kRot).norm() < kDone * kRotationDone_rad &&
+        step.template segment<3>(kPos).norm() < kDone * kPositionDone_m)
       break;
   }
   result.belief.state = present;
