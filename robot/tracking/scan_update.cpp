@@ -79,9 +79,9 @@ MatchedPoint match_point(std::size_t point, const PoseView& pose, const ScanView
   return line.value_or(MatchedPoint{});
 }
 
-// All points on a plane see the plane's error alike. Of m residuals with own variances s and a common one c,
-// the mean has the variance s / m + c: as if each had s + m c and they were independent.
-/// The weight of a residual; 0 beyond the gate.
+/// The weight of a residual; 0 beyond the gate. All points on a plane see the plane's error alike: of m
+/// residuals with own variances s and a common one c, the mean has the variance s / m + c, as if each had
+/// s + m c and they were independent.
 float weight_of(const MatchedPoint& line, float sharers, float gate_squared) {
   const float chi_squared = line.residual_m * line.residual_m / line.spread_m2;
   if (!(chi_squared < gate_squared)) return 0.0F;

@@ -96,12 +96,13 @@ class PlaneFinder {
   [[nodiscard]] bool lies_on_plane(const Eigen::Vector2f& pixel, const PlaneHit& hit) const {
     constexpr double kReach_px = 0.5 * (image::kPatchSide - 1);
     const Eigen::Vector3d normal = hit.normal.cast<double>();
-    const double above_m = normal.dot(hit.p_in_odom_m - view_.camera_in_odom_m);
+    const double offset_m = normal.dot(hit.p_in_odom_m - view_.camera_in_odom_m);
     for (const double dx : {-kReach_px, kReach_px}) {
       for (const double dy : {-kReach_px, kReach_px}) {
         const Eigen::Vector2d at = pixel.cast<double>() + Eigen::Vector2d(dx, dy);
         const Eigen::Vector3d direction = odom_from_camera_ * view_.camera.unproject(at);
-        const Eigen::Vector3d corner_m = view_.camera_in_odom_m + above_m / normal.dot(direction) * direction;
+        const Eigen::Vector3d corner_m =
+            view_.camera_in_odom_m + offset_m / normal.dot(direction) * direction;
         if (!((corner_m - hit.p_in_odom_m).norm() < kMostAcross_m)) return false;
         const PlaneMatch match = planes_.find(corner_m);
         if (match.plane == nullptr || match.plane->normal.dot(hit.normal) < kSameDirection ||
