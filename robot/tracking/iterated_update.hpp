@@ -43,6 +43,14 @@ struct ShiftedPrior {
 template <int Errors = kErrorSize>
 [[nodiscard]] ShiftedPrior<Errors> shift(const FilterBelief& prior, const FilterState& present);
 
+/// What an update found before it was given up; the belief is what it was.
+template <typename UpdateResult>
+[[nodiscard]] UpdateResult without_update(const FilterBelief& prior, UpdateResult result) {
+  result.belief = prior;
+  result.updated = false;
+  return result;
+}
+
 /// What residuals pull a prior to.
 template <int Errors>
 struct Correction {

@@ -105,7 +105,10 @@ void propagate(FilterBelief& belief, const MotionInput& input, const MotionNoise
   belief.covariance.topRows<kGyroBias>() = (moving * belief.covariance).eval();
   belief.covariance.leftCols<kGyroBias>() = (belief.covariance * moving.transpose()).eval();
   // No motion changes the calibration.
-  if (belief.calibration) belief.calibration->with_state = (f * belief.calibration->with_state).eval();
+  if (belief.calibration) {
+    auto& with_state = belief.calibration->with_state;
+    with_state.topRows<kGyroBias>() = (moving * with_state).eval();
+  }
   const auto add = [&](int index, double density) {
     belief.covariance.diagonal().segment<3>(index).array() += density * density * dt_s;
   };

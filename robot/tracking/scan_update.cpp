@@ -124,12 +124,6 @@ Matrix6d doubt_of(const ErrorsMatrix<Errors>& covariance, const ScanView& scan) 
   }
 }
 
-ScanUpdateResult without_update(const FilterBelief& prior, ScanUpdateResult result) {
-  result.belief = prior;
-  result.updated = false;
-  return result;
-}
-
 }  // namespace
 
 PointToPlane point_to_plane(const geometry::RigidTransform& odom_from_body,

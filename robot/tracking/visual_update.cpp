@@ -59,12 +59,6 @@ Correction<Errors> correct_by(const ShiftedPrior<Errors>& prior, const Matrix7d&
   }
 }
 
-VisualUpdateResult without_update(const FilterBelief& prior, VisualUpdateResult result) {
-  result.belief = prior;
-  result.updated = false;
-  return result;
-}
-
 float median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
